@@ -133,6 +133,11 @@ std::vector<Json> AllMeasurements() {
     "rig": { "actuator": {}, "line": { "elements": [ { "measure": [], "exhaust": {} },
                                                          { "tube": {} } ] },
              "supply": { "kind": "regulated" } },
+    "runs": [ { "cycle": {} } ] })"),
+          Document(R"({
+    "schema": "measurement/1",
+    "rig": { "actuator": {}, "line": { "elements": [ { "exhaust": {} } ] },
+             "supply": { "kind": "flow" } },
     "runs": [ { "cycle": {} } ] })")};
 }
 

@@ -18,6 +18,7 @@ using calibration::MeasuredPlace;
 using calibration::Supply;
 
 constexpr std::size_t kElementsMax = 16;
+constexpr double kFlowPressurePa = 1e8;     // up to which a flow controller lets its flow in
 constexpr double kSmallReservoirMl = 10.0;  // where a compressor feeds the line directly
 
 constexpr const char* kRemarks[] = {"note",    "notes",  "comment", "description", "date",
@@ -161,9 +162,16 @@ std::vector<LinePiece> ReadPieces(Reader line, std::vector<MeasuredInRig>& measu
 void ReadSupply(Reader& rig, MeasuredRig& part) {
   auto supply = rig.OptionalObject("supply");
   if (!supply) return;
-  const std::string kind = supply->Choice("kind", {"regulated", "measured", "compressor", "none"});
+  const std::string kind =
+      supply->Choice("kind", {"regulated", "measured", "compressor", "flow", "none"});
   if (kind == "regulated") part.supply = Supply::kRegulated;
   if (kind == "measured") part.supply = Supply::kMeasured;
+  if (kind == "flow") {
+    part.supply = Supply::kFlow;
+    const double flow = M3PerSFromLPerMin(supply->Number("flow_l_per_min_anr", Above(0, 1e6)));
+    part.compressor.free_air_m3_per_s = model::MonotoneCurve({0.0, kFlowPressurePa}, {flow, flow});
+    part.compressor.pressure_max_pa = kFlowPressurePa;
+  }
   if (kind == "compressor") {
     part.supply = Supply::kCompressor;
     part.compressor = ReadPumpCurve(*supply, part.ambient);
@@ -171,7 +179,9 @@ void ReadSupply(Reader& rig, MeasuredRig& part) {
     part.reservoir_volume_m3 =
         M3FromMl(supply->Number("reservoir_volume_ml", {1, 1e6}, kSmallReservoirMl));
   }
-  if (const auto kpa = supply->OptionalNumber("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}))
+  if (const auto kpa = supply->OptionalNumber(
+          "source_pressure_kpa_gauge",
+          kind == "regulated" ? PressuresAbove0(part.ambient) : Range{0, kGaugeMaxKpa}))
     part.source_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
   if (!kind.empty()) supply->Finish();
 }
@@ -187,7 +197,11 @@ MeasuredRig ReadRig(const Json& document, const std::string& pointer, Errors& er
   ReadMeasuredVolume(actuator, part);
   actuator.Finish();
   if (reader.Has("line")) part.line = ReadPieces(reader.Object("line"), part.measured);
+  part.gas = ReadGas(reader);
   ReadSupply(reader, part);
+  if (const auto kpa =
+          reader.OptionalNumber("exhaust_pressure_kpa_gauge", PressuresAbove0(part.ambient)))
+    part.exhaust_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
   reader.Finish();
   return part;
 }
@@ -209,6 +223,10 @@ void AddOnce(Error error, Errors& errors) {
 }
 
 }  // namespace
+
+Range PressuresAbove0(const model::Ambient& ambient) {
+  return Above(-ambient.pressure_pa / kPaPerKpa, kGaugeMaxKpa);
+}
 
 void AllowRemarks(Reader& reader) {
   for (const char* remark : kRemarks) reader.Raw(remark);

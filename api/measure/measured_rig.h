@@ -23,8 +23,9 @@ struct MeasuredRig {
   model::Ambient ambient;
   model::Chamber chamber;
   std::vector<calibration::LinePiece> line;
+  model::Gas gas = model::Gas::kAir;
   calibration::Supply supply = calibration::Supply::kNone;
-  std::optional<double> source_pressure_pa;
+  std::optional<double> source_pressure_pa, exhaust_pressure_pa;
   model::CompressorCurve compressor;
   double reservoir_volume_m3 = 0.0;
   std::vector<MeasuredInRig> measured;
@@ -35,6 +36,9 @@ struct MeasuredRig {
 // shared rig is reported once, however many runs use it.
 MeasuredRig ReadRigOfRun(const Json& shared, const Json* own, const std::string& own_pointer,
                          Errors& errors);
+
+// Gauge pressures down to an absolute 0, which is not one of them.
+Range PressuresAbove0(const model::Ambient& ambient);
 
 // Lets pass what people write into such files for themselves: note, date, license, ...
 void AllowRemarks(Reader& reader);

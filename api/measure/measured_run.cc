@@ -12,6 +12,7 @@
 #include "api/json/words.h"
 #include "api/measure/measured_rig.h"
 #include "api/simulate/rig.h"
+#include "calibration/values/crossing.h"
 
 namespace plenum::api {
 namespace {
@@ -141,7 +142,13 @@ void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
   if (inflates && run.supply == Supply::kNone)
     owner.Fail("valve", "inflates, but the rig's supply is none");
   if (run.supply == Supply::kRegulated && inflates && !has_source_pressure)
-    owner.Fail("source_pressure_kpa_gauge", "is required with a regulated supply, a number ≥ 0");
+    owner.Fail("source_pressure_kpa_gauge", "is required with a regulated supply, a number");
+  const calibration::Channels& channels = run.channels;
+  if (calibration::Evacuates(run) &&
+      !(channels.source_pressure_pa.empty() && channels.flow_m3_per_s.empty()))
+    owner.Fail("channels",
+               "must not hold source_pressure_kpa_gauge or flow_l_per_min_anr where "
+               "source_pressure_kpa_gauge of the run is below 0");
   if (run.supply == Supply::kMeasured && run.channels.source_pressure_pa.empty())
     owner.Fail("channels", "source_pressure_kpa_gauge is required with supply.kind measured");
 }
@@ -212,15 +219,22 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.ambient = rig.ambient;
   run.chamber = rig.chamber;
   run.line = rig.line;
+  run.gas = rig.gas;
   run.supply = rig.supply;
   run.compressor = rig.compressor;
   run.reservoir_volume_m3 = rig.reservoir_volume_m3;
   TakeMeasured(rig.measured, measured, run);
   run.blocked = reader.Bool("blocked", false);
-  const auto source_kpa = reader.OptionalNumber("source_pressure_kpa_gauge", {0, kGaugeMaxKpa});
+  const Range pressures = PressuresAbove0(run.ambient);
+  const auto source_kpa =
+      reader.OptionalNumber("source_pressure_kpa_gauge",
+                            run.supply == Supply::kRegulated ? pressures : Range{0, kGaugeMaxKpa});
   const bool has_source = source_kpa || rig.source_pressure_pa;
   run.source_pressure_pa = source_kpa ? PaFromKpaGauge(*source_kpa, run.ambient)
                                       : rig.source_pressure_pa.value_or(run.ambient.pressure_pa);
+  const auto exhaust_kpa = reader.OptionalNumber("exhaust_pressure_kpa_gauge", pressures);
+  run.exhaust_pressure_pa = exhaust_kpa ? PaFromKpaGauge(*exhaust_kpa, run.ambient)
+                                        : rig.exhaust_pressure_pa.value_or(0.0);
   ReadInitial(reader, run);
   if (const auto schedule = ReadSchedule(reader))
     run.valve = schedule->commands;

@@ -176,6 +176,13 @@ model::Source ReadSource(Reader& request, const model::Ambient& ambient, Side si
   return result;
 }
 
+model::Gas ReadGas(Reader& owner) {
+  const auto& names = model::kGasNames;
+  const std::string gas = owner.Choice("gas", {names.begin(), names.end()}, "air");
+  const auto named = std::find(names.begin(), names.end(), gas);
+  return named == names.end() ? model::Gas::kAir : static_cast<model::Gas>(named - names.begin());
+}
+
 std::optional<Schedule> ReadSchedule(Reader& owner) {
   if (owner.Has("valve") && owner.Has("cycle"))
     owner.Fail("cycle", "give either valve or cycle, not both");

@@ -30,6 +30,9 @@ Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts);
 model::Source ReadSource(Reader& request, const model::Ambient& ambient,
                          Side side = Side::kPressure);
 
+// "gas", air where it is not said.
+model::Gas ReadGas(Reader& owner);
+
 // A schedule and how long it lasts, where it says so.
 struct Schedule {
   std::vector<model::ValveCommand> commands;

@@ -120,8 +120,7 @@ Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalo
   reader.Schema("simulation/1");
   reader.Text("name", "");
   simulation.rig.ambient = ReadAmbient(reader);
-  simulation.rig.gas =
-      reader.Choice("gas", {"air", "co2"}, "air") == "co2" ? model::Gas::kCo2 : model::Gas::kAir;
+  simulation.rig.gas = ReadGas(reader);
   const std::optional<Schedule> shared = ReadSchedule(reader);
   double duration_s = shared ? shared->duration_s.value_or(0.0) : 0.0;
   const std::vector<model::Effect> effects = ReadEffects(reader);

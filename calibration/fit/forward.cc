@@ -5,6 +5,7 @@
 
 #include "calibration/fit/source_record.h"
 #include "calibration/noise/noise.h"
+#include "calibration/values/crossing.h"
 #include "calibration/values/measured_place.h"
 #include "model/effects/learned/learned.h"
 #include "model/flow/tube.h"
@@ -15,7 +16,6 @@ namespace {
 
 using model::FlowElement;
 
-constexpr int kFirstReadings = 10;
 constexpr double kBoreStep = 1e-5;  // relative, of a central difference
 
 double Factor(const ModelState& state, Declared number) {
@@ -27,6 +27,14 @@ FlowElement Scaled(FlowElement element, const ModelState& state) {
   element.critical_ratio = std::clamp(
       element.critical_ratio * Factor(state, Declared::kCriticalRatio), 0.0, kCriticalRatioMax);
   return element;
+}
+
+// An actuator's table of volumes; empty where it has none.
+model::MonotoneCurve Scaled(const model::MonotoneCurve& table, double factor) {
+  if (table.empty() || factor == 1.0) return table;
+  std::vector<double> volume_m3(table.y().begin(), table.y().end());
+  for (double& m3 : volume_m3) m3 *= factor;
+  return {{table.x().begin(), table.x().end()}, std::move(volume_m3)};
 }
 
 double Bore(const LinePiece& piece, const ModelState& state) {
@@ -109,7 +117,7 @@ class DirectionOf {
     model::Chamber& chamber = group_.chamber;
     switch (number) {
       case Declared::kRestVolume:
-        Add(chamber.rest_volume_m3, run_.chamber.rest_volume_m3);
+        if (chamber.volume_curve.empty()) Add(chamber.rest_volume_m3, run_.chamber.rest_volume_m3);
         break;
       case Declared::kExpansionRatio:
         if (chamber.expansion_ratio > 1.0)
@@ -144,13 +152,16 @@ class DirectionOf {
     for (const double* number : {&rig_.ambient.pressure_pa, &group_.initial_pressure_pa,
                                  &group_.chamber.operating_pressure_pa})
       Add(*number, ambient_pa);
+    if (rig_.exhaust_pressure_pa > 0.0) Add(rig_.exhaust_pressure_pa, ambient_pa);
     if (auto* regulated = std::get_if<model::RegulatedSource>(&rig_.source))
       Add(regulated->pressure_pa, ambient_pa);
   }
 
   void OfSource() {
     const double gauge_pa = run_.source_pressure_pa - run_.ambient.pressure_pa;
-    if (auto* regulated = std::get_if<model::RegulatedSource>(&rig_.source)) {
+    if (Evacuates(run_)) {
+      Add(rig_.exhaust_pressure_pa, gauge_pa);
+    } else if (auto* regulated = std::get_if<model::RegulatedSource>(&rig_.source)) {
       Add(regulated->pressure_pa, gauge_pa);
     } else if (auto* reservoir = std::get_if<model::ReservoirSource>(&rig_.source)) {
       Add(reservoir->initial_pressure_pa, gauge_pa);
@@ -160,7 +171,7 @@ class DirectionOf {
   }
 
   void OfPiece(Declared number, std::size_t i) {
-    const LinePiece& piece = run_.line[i];
+    const LinePiece piece = AsCrossed(run_.line[i], run_);
     FlowElement& fill = group_.fill[i];
     FlowElement& exhaust = group_.exhaust[group_.exhaust.size() - 1 - i];
     if (piece.tube) {
@@ -226,31 +237,7 @@ void FillTemperature(const Run& run, Reading& reading) {
     reading.channels.temperature_k.assign(reading.pressure_pa.size(), run.ambient.temperature_k);
 }
 
-// Mean of the readings before the valve first opens, at most kFirstReadings; the first one if it is
-// open from the start.
-double FirstReading(const Run& run) {
-  if (run.pressure_pa.empty()) return run.ambient.pressure_pa;
-  const auto opens = std::find_if(
-      run.valve.begin(), run.valve.end(),
-      [](const model::ValveCommand& command) { return command.state != model::ValveState::kHold; });
-  const double until_s = opens == run.valve.end() ? run.t_s.back() : opens->time_s;
-  double sum_pa = 0.0;
-  int count = 0;
-  for (std::size_t i = 0; i < run.t_s.size() && count < kFirstReadings; ++i) {
-    if (count > 0 && run.t_s[i] >= until_s) break;
-    if (std::isnan(run.pressure_pa[i])) continue;
-    sum_pa += run.pressure_pa[i];
-    ++count;
-  }
-  return count == 0 ? run.ambient.pressure_pa : sum_pa / count;
-}
-
 }  // namespace
-
-double StartOf(const Run& run) {
-  const double first_sample_s = run.t_s.empty() ? 0.0 : run.t_s.front();
-  return run.valve.empty() ? first_sample_s : std::min(first_sample_s, run.valve.front().time_s);
-}
 
 ForwardModel::ForwardModel(const Dataset& dataset)
     : dataset_(&dataset), measured_(dataset.runs.size()) {
@@ -280,10 +267,10 @@ ModelState ForwardModel::Declared() const {
 
 model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state) const {
   const Run& run = dataset_->runs[index];
-  const double ambient_pa = run.ambient.pressure_pa;
   const double factor = Factor(state, Declared::kSourcePressure);
-  const double pressure_pa =
-      ambient_pa + AmbientShift(run, state) + factor * (run.source_pressure_pa - ambient_pa);
+  const double shift_pa = AmbientShift(run, state);
+  const double pressure_pa = SourcePressure(run, factor, shift_pa);
+  if (Evacuates(run)) return model::RegulatedSource{.pressure_pa = ExhaustPressure(run, shift_pa)};
   switch (run.supply) {
     case Supply::kRegulated:
       return model::RegulatedSource{.pressure_pa = pressure_pa};
@@ -297,6 +284,8 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
           .volume_m3 = run.reservoir_volume_m3 * Factor(state, Declared::kReservoirVolume),
           .initial_pressure_pa = pressure_pa - state.clock_s[index] * PumpingRate(run),
           .compressor = run.compressor};
+    case Supply::kFlow:
+      return model::PumpSource{.compressor = run.compressor};
     case Supply::kNone:
       break;
   }
@@ -308,12 +297,19 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   model::Rig rig;
   const double shift_pa = AmbientShift(run, state);
   rig.ambient = {run.ambient.pressure_pa + shift_pa, run.ambient.temperature_k};
+  rig.gas = run.gas;
   rig.source = SourceOf(index, state);
+  if (Evacuates(run))
+    rig.exhaust_pressure_pa =
+        SourcePressure(run, Factor(state, Declared::kSourcePressure), shift_pa);
+  else if (run.exhaust_pressure_pa > 0.0)
+    rig.exhaust_pressure_pa = ExhaustPressure(run, shift_pa);
   model::GroupRig group;
   group.name = run.id;
   group.chamber = run.chamber;
   model::Chamber& chamber = group.chamber;
   chamber.rest_volume_m3 *= Factor(state, Declared::kRestVolume);
+  chamber.volume_curve = Scaled(chamber.volume_curve, Factor(state, Declared::kRestVolume));
   chamber.expansion_ratio =
       std::max(1.0, chamber.expansion_ratio * Factor(state, Declared::kExpansionRatio));
   chamber.operating_pressure_pa +=
@@ -321,7 +317,8 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
           (run.chamber.operating_pressure_pa - run.ambient.pressure_pa) +
       shift_pa;
   chamber.ambient_pressure_pa += shift_pa;
-  for (const LinePiece& piece : run.line) {
+  for (const LinePiece& declared : run.line) {
+    const LinePiece piece = AsCrossed(declared, run);
     FlowElement fill = Scaled(piece.fill, state), exhaust = Scaled(piece.exhaust, state);
     if (piece.tube) {
       fill = exhaust = model::TubeElement(Bore(piece, state), piece.tube->length_m);
@@ -332,7 +329,8 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   }
   group.inlet_after = InletAfter(run);
   for (const model::ValveCommand& command : run.valve)
-    group.schedule.push_back({command.time_s - StartOf(run) + state.clock_s[index], command.state});
+    group.schedule.push_back(
+        {command.time_s - StartOf(run) + state.clock_s[index], AsCrossed(command.state, run)});
   group.initial_pressure_pa = state.initial_pressure_pa[index] + shift_pa;
   group.initial_temperature_k = state.initial_temperature_k[index];
   group.blocked = run.blocked;
@@ -392,7 +390,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     prediction.derivatives[moved[j]] =
         ReadingOf(std::move(result.derivatives[j]), ambient ? run.ambient.pressure_pa : 0.0);
   }
-  AddDeliverySlopes(*this, index, state, parameters, options, prediction);
+  AddTableSlopes(*this, index, state, parameters, options, prediction);
   return prediction;
 }
 

@@ -73,14 +73,12 @@ class ForwardModel {
   std::vector<model::DrivenSource> measured_;  // by run; without points where not measured
 };
 
-// Adds the derivatives to a pump's delivery, which the simulator does not give: one-sided
-// differences, as falls of the delivery may be at their bound of 0 (measured.cc).
-void AddDeliverySlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
-                       std::span<const Parameter> parameters, const PredictOptions& options,
-                       Prediction& prediction);
-
-// The time at which a run begins: the first sample or the first command, whichever is earlier.
-double StartOf(const Run& run);
+// Adds the derivatives to numbers that move a table, which the simulator does not give: a pump's
+// delivery, and the factor on an actuator's volumes. One-sided differences, as falls of the
+// delivery may be at their bound of 0 (measured.cc).
+void AddTableSlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
+                    std::span<const Parameter> parameters, const PredictOptions& options,
+                    Prediction& prediction);
 
 }  // namespace plenum::calibration
 

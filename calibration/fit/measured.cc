@@ -1,7 +1,9 @@
 // Numbers of parts that runs measure: their coordinates, their intervals, derivatives to them.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "calibration/fit/fit.h"
 #include "calibration/values/measured_place.h"
@@ -15,6 +17,7 @@ constexpr double kSpan = 3.0;  // e-folds either way, of conductances and volume
 constexpr double kCriticalRatioMax = 0.95;
 constexpr double kMostDelivery = 20.0;  // times the largest one declared
 constexpr double kDeliveryStep = 1e-2;  // of that, of a difference
+constexpr double kVolumeStep = 1e-3;    // of the factor on an actuator's volumes
 constexpr double kDifferenceTolerance = 1e-7;
 constexpr double kAtBound = 1e-6;  // of the range that was searched
 constexpr double kTwoSided95 = 1.959964;
@@ -176,26 +179,41 @@ void WidenByRoom(const Dataset& dataset, std::vector<MeasuredEstimate>& estimate
   }
 }
 
-void AddDeliverySlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
-                       std::span<const Parameter> parameters, const PredictOptions& options,
-                       Prediction& prediction) {
-  const Run& of = forward.dataset().runs[run];
-  if (parameters.empty() || of.measured.delivery.empty() ||
-      prediction.status != model::SimulateStatus::kDone)
-    return;
+// The state a step of difference further along a number that moves a table of the run's rig; none
+// where it moves none.
+static std::optional<std::pair<ModelState, double>> MovedTable(const Run& run,
+                                                               const Parameter& parameter,
+                                                               const ModelState& state) {
+  const std::vector<std::size_t>& delivery = run.measured.delivery;
+  const bool delivers = parameter.kind == Parameter::Kind::kMeasured &&
+                        std::count(delivery.begin(), delivery.end(), parameter.number) > 0;
+  const bool swells = parameter.kind == Parameter::Kind::kDeclared &&
+                      parameter.declared == Declared::kRestVolume &&
+                      !run.chamber.volume_curve.empty();
+  if (!delivers && !swells) return std::nullopt;
+  std::pair<ModelState, double> moved = {state, kVolumeStep};
+  if (delivers) {
+    moved.second = kDeliveryStep * run.compressor.free_air_m3_per_s.y().front();
+    moved.first.measured[parameter.number] += moved.second;
+  } else {
+    moved.first.factor[static_cast<std::size_t>(Declared::kRestVolume)] += moved.second;
+  }
+  return moved;
+}
+
+void AddTableSlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
+                    std::span<const Parameter> parameters, const PredictOptions& options,
+                    Prediction& prediction) {
+  if (prediction.status != model::SimulateStatus::kDone) return;
   PredictOptions tight = options;
   tight.relative_tolerance = std::min(options.relative_tolerance, kDifferenceTolerance);
-  const Prediction at = forward.Predict(run, state, {}, tight);
+  std::optional<Prediction> at;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
-    const Parameter& parameter = parameters[j];
-    if (parameter.kind != Parameter::Kind::kMeasured ||
-        std::count(of.measured.delivery.begin(), of.measured.delivery.end(), parameter.number) == 0)
-      continue;
-    const double step = kDeliveryStep * of.compressor.free_air_m3_per_s.y().front();
-    ModelState moved = state;
-    moved.measured[parameter.number] += step;
-    const Prediction there = forward.Predict(run, moved, {}, tight);
-    prediction.derivatives[j] = Slope(at.reading, there.reading, step);
+    const auto moved = MovedTable(forward.dataset().runs[run], parameters[j], state);
+    if (!moved) continue;
+    if (!at) at = forward.Predict(run, state, {}, tight);
+    const Prediction there = forward.Predict(run, moved->first, {}, tight);
+    prediction.derivatives[j] = Slope(at->reading, there.reading, moved->second);
   }
 }
 

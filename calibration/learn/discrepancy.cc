@@ -9,6 +9,7 @@
 #include <string>
 
 #include "calibration/fit/tones.h"
+#include "calibration/values/effect_sets.h"
 #include "calibration/values/parallel.h"
 #include "calibration/values/thresholds.h"
 #include "model/effects/learned/learned.h"
@@ -71,13 +72,6 @@ bool Holds(const ModelState& state, std::string_view id) {
                      [&](const model::Effect& effect) { return effect.spec->id == id; });
 }
 
-bool AnySupply(const FitData& data, std::initializer_list<Supply> supplies) {
-  return std::any_of(data.runs.begin(), data.runs.end(), [&](std::size_t run) {
-    const Supply supply = data.forward->dataset().runs[run].supply;
-    return std::find(supplies.begin(), supplies.end(), supply) != supplies.end();
-  });
-}
-
 ModelState With(ModelState state, const model::EffectSpec& spec, std::vector<double> parameters) {
   state.effects.push_back({&spec, std::move(parameters)});
   return state;
@@ -88,7 +82,11 @@ std::vector<ModelState> SwingingStarts(const FitData& data, const model::EffectS
                                        const ModelState& base, const ModelState& established,
                                        const FitOptions& options) {
   const bool supply = spec.place == model::EffectPlace::kSupply;
-  if (supply && !AnySupply(data, {Supply::kRegulated, Supply::kCompressor})) return {};
+  const bool fed = std::any_of(data.runs.begin(), data.runs.end(), [&](std::size_t run) {
+    const Supply kind = data.forward->dataset().runs[run].supply;
+    return kind == Supply::kRegulated || kind == Supply::kCompressor;
+  });
+  if (supply && !fed) return {};
   std::vector<ModelState> starts;
   const Swinging what = supply ? Swinging::kSupply : Swinging::kSensor;
   for (const Tone& tone : TonesOf(data, established, what, kTones, options)) {
@@ -105,6 +103,7 @@ std::vector<ModelState> Starts(const FitData& data, const model::EffectSpec& spe
                                const ModelState& base, const ModelState& established,
                                const FitOptions& options) {
   const TypicalSizes& sizes = data.sizes;
+  if (!HasPlace(spec, data.forward->dataset().runs)) return {};
   if (spec.law == "swing") return SwingingStarts(data, spec, base, established, options);
   if (spec.law == "opening") {
     const double rate_per_s = 0.1 / sizes.duration_s;

@@ -1,10 +1,12 @@
 #include "calibration/values/dataset.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plenum::calibration {
 namespace {
 
+constexpr int kFirstReadings = 10;
 constexpr double kLeastAmbientPa = 50e3, kMostAmbientPa = 110e3;  // on land
 
 }  // namespace
@@ -44,7 +46,7 @@ bool Has(const Run& run, Declared number) {
     case Declared::kOperatingPressure:
       return !run.blocked && run.chamber.expansion_ratio > 1.0;
     case Declared::kSourcePressure:
-      return run.supply != Supply::kNone;
+      return run.supply != Supply::kNone && run.supply != Supply::kFlow;
     case Declared::kSonicConductance:
       return HasUnmeasured(run, Of::kFillConductance, Of::kExhaustConductance);
     case Declared::kCriticalRatio:
@@ -63,12 +65,38 @@ bool Has(const Run& run, Declared number) {
                       [](const MeasuredPlace& place) { return place.of == Of::kVolume; });
 }
 
+double StartOf(const Run& run) {
+  const double first_sample_s = run.t_s.empty() ? 0.0 : run.t_s.front();
+  return run.valve.empty() ? first_sample_s : std::min(first_sample_s, run.valve.front().time_s);
+}
+
+double FirstReading(const Run& run) {
+  if (run.pressure_pa.empty()) return run.ambient.pressure_pa;
+  const auto opens = std::find_if(
+      run.valve.begin(), run.valve.end(),
+      [](const model::ValveCommand& command) { return command.state != model::ValveState::kHold; });
+  const double until_s = opens == run.valve.end() ? run.t_s.back() : opens->time_s;
+  double sum_pa = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < run.t_s.size() && count < kFirstReadings; ++i) {
+    if (count > 0 && run.t_s[i] >= until_s) break;
+    if (std::isnan(run.pressure_pa[i])) continue;
+    sum_pa += run.pressure_pa[i];
+    ++count;
+  }
+  return count == 0 ? run.ambient.pressure_pa : sum_pa / count;
+}
+
 std::pair<double, double> FactorRange(const Dataset& dataset, Declared number) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double ratio = kInfinity, expansion = 1.0, lowest_pa = kInfinity, highest_pa = 0.0;
+  double ratio = kInfinity, expansion = 1.0, vacuum = kInfinity, lowest_pa = kInfinity,
+         highest_pa = 0.0;
   for (const Run& run : dataset.runs) {
     lowest_pa = std::min(lowest_pa, run.ambient.pressure_pa);
     highest_pa = std::max(highest_pa, run.ambient.pressure_pa);
+    if (run.source_pressure_pa < run.ambient.pressure_pa)
+      vacuum = std::min(
+          vacuum, run.ambient.pressure_pa / (run.ambient.pressure_pa - run.source_pressure_pa));
     if (!run.blocked) expansion = std::max(expansion, run.chamber.expansion_ratio);
     for (const LinePiece& piece : run.line)
       for (const double b : {piece.fill.critical_ratio, piece.exhaust.critical_ratio})
@@ -79,6 +107,8 @@ std::pair<double, double> FactorRange(const Dataset& dataset, Declared number) {
       return {1.0 / expansion, kInfinity};
     case Declared::kCriticalRatio:
       return {0.0, std::max(1.0, kCriticalRatioMax / ratio)};
+    case Declared::kSourcePressure:
+      return {0.0, vacuum};
     case Declared::kAmbientPressure:
       return {std::min(1.0, kLeastAmbientPa / lowest_pa),
               std::max(1.0, kMostAmbientPa / highest_pa)};

@@ -45,7 +45,9 @@ struct LinePiece {
   std::optional<Tube> tube;
 };
 
-enum class Supply { kNone, kRegulated, kMeasured, kCompressor };
+// kFlow: a flow controller, as a compressor that delivers the same at any pressure, without a
+// reservoir.
+enum class Supply { kNone, kRegulated, kMeasured, kCompressor, kFlow };
 
 struct Channels {  // each empty, or as long as t_s
   std::vector<double> source_pressure_pa, inlet_pressure_pa, temperature_k, volume_m3;
@@ -84,8 +86,10 @@ struct Run {
   model::Ambient ambient;
   model::Chamber chamber;
   std::vector<LinePiece> line;
+  model::Gas gas = model::Gas::kAir;
   Supply supply = Supply::kNone;
   double source_pressure_pa = 0.0;
+  double exhaust_pressure_pa = 0.0;  // what the line opens into to deflate; 0: the ambient's
   model::CompressorCurve compressor;
   double reservoir_volume_m3 = 0.0;
   bool blocked = false;
@@ -101,6 +105,13 @@ struct Run {
 // Whether the run's readings depend on that number, beside those that it measures.
 bool Has(const Run& run, Declared number);
 
+// The time at which a run begins: the first sample or the first command, whichever is earlier.
+double StartOf(const Run& run);
+
+// Mean of the readings before the valve first opens, at most ten; the first one if it is open from
+// the start. Absolute.
+double FirstReading(const Run& run);
+
 struct Dataset {
   std::string name;
   std::vector<Run> runs;
@@ -112,7 +123,8 @@ struct Dataset {
 };
 
 // The factors on a declared number with which all runs' rigs make sense: ε not below 1, b not above
-// kCriticalRatioMax, an ambient pressure that there is on land. Other numbers: any.
+// kCriticalRatioMax, no source below an absolute 0, an ambient pressure that there is on land.
+// Other numbers: any.
 inline constexpr double kCriticalRatioMax = 0.95;
 std::pair<double, double> FactorRange(const Dataset& dataset, Declared number);
 

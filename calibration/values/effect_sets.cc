@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "calibration/values/crossing.h"
 #include "model/effects/registry.h"
 
 namespace plenum::calibration {
@@ -64,7 +65,8 @@ bool HasRatio(const Run& run) {
 
 // Only then does what comes out of walls and pockets show.
 bool WasEvacuated(const Run& run) {
-  return !run.pressure_pa.empty() && run.pressure_pa.front() < kEvacuated * run.ambient.pressure_pa;
+  return std::any_of(run.pressure_pa.begin(), run.pressure_pa.end(),
+                     [&](double pa) { return pa < kEvacuated * run.ambient.pressure_pa; });
 }
 
 bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
@@ -118,10 +120,19 @@ bool HoldsId(const EffectSet& set, std::string_view id) {
 
 bool IsLearned(const model::EffectSpec& spec) { return spec.id.starts_with("learned"); }
 
+bool HasPlace(const model::EffectSpec& spec, const std::vector<Run>& runs) {
+  const bool supply = spec.place == model::EffectPlace::kSupply;
+  const bool one_way =
+      supply || spec.id == "exhaust_restriction" || spec.id == "directional_conductance";
+  return std::none_of(runs.begin(), runs.end(), [&](const Run& run) {
+    return (one_way && Evacuates(run)) || (supply && run.supply == Supply::kFlow);
+  });
+}
+
 EffectSet NamedEffects(const std::vector<Run>& runs) {
   EffectSet named;
   for (const model::EffectSpec* spec : model::Effects())
-    if (!IsLearned(*spec) && Exercised(*spec, runs)) named.push_back(spec);
+    if (!IsLearned(*spec) && HasPlace(*spec, runs) && Exercised(*spec, runs)) named.push_back(spec);
   return named;
 }
 

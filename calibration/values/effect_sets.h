@@ -30,6 +30,10 @@ bool HoldsId(const EffectSet& set, std::string_view id);
 // A term that stands for what has no name (discrepancy.h).
 bool IsLearned(const model::EffectSpec& spec);
 
+// Whether the model has the effect in all of the runs: not one of a single direction where a source
+// below ambient has gas cross the line the other way, nor one of a supply whose flow is given.
+bool HasPlace(const model::EffectSpec& spec, const std::vector<Run>& runs);
+
 // The effects that have a name, of which the runs can tell: a valve that never opens tells nothing
 // of itself, of its line and of what feeds it.
 EffectSet NamedEffects(const std::vector<Run>& runs);

@@ -97,7 +97,7 @@ class LeakPorous final : public EffectUnit<T> {
     const T& a = viscous_pa2_s_per_kg_;
     // The root of the quadratic without cancellation.
     const T mass = 2.0 * drive / (a + sqrt(a * a + 4.0 * inertial_pa2_s2_per_kg2_ * drive));
-    const T flow = mass / kReferenceDensityKgPerM3;
+    const T flow = mass / setup.reference_density_kg_per_m3;
     LeakOrifice<T>::AddLeak(squares >= 0.0 ? flow : T(-flow), m);
   }
 

@@ -30,8 +30,8 @@ class LineDynamics final : public EffectUnit<T> {
     x[0] = m.pressure_pa;
     x[1] = T(0.0);
     size[0] = ValueOf(m.pressure_pa);
-    const double impedance =
-        ValueOf(setup.ContentRate() * kReferenceDensityKgPerM3 * length_m_ / (Area() * Volume()));
+    const double impedance = ValueOf(setup.ContentRate() * setup.reference_density_kg_per_m3 *
+                                     length_m_ / (Area() * Volume()));
     size[1] = size[0] / std::sqrt(impedance);
   }
   void BeforeVolume(const GroupSetup<T>&, const T* x, Moment<T>& m) const override {
@@ -47,17 +47,17 @@ class LineDynamics final : public EffectUnit<T> {
   void Rates(const GroupSetup<T>& setup, const Moment<T>& m, const T* x, T* dxdt) const override {
     dxdt[0] = setup.ContentRate() * (m.line_in_m3_per_s - m.line_out_m3_per_s - x[1]) / Volume();
     const T density = (x[0] + m.pressure_pa) / (2.0 * kReferencePressurePa) *
-                      kReferenceDensityKgPerM3 * kReferenceTemperatureK /
+                      setup.reference_density_kg_per_m3 * kReferenceTemperatureK /
                       setup.ambient_temperature_k;
-    dxdt[1] = Area() / (kReferenceDensityKgPerM3 * length_m_) * (x[0] - m.pressure_pa) -
-              32.0 * kViscosityPaS / (inner_diameter_m_ * inner_diameter_m_ * density) * x[1];
+    dxdt[1] =
+        Area() / (setup.reference_density_kg_per_m3 * length_m_) * (x[0] - m.pressure_pa) -
+        32.0 * setup.viscosity_pa_s / (inner_diameter_m_ * inner_diameter_m_ * density) * x[1];
   }
   T Stored(const GroupSetup<T>& setup, const T* x) const override {
     return x[0] * Volume() / setup.ContentRate();
   }
 
  private:
-  static constexpr double kViscosityPaS = 1.81e-5;  // of air at 20 °C
   T Area() const { return std::numbers::pi / 4.0 * inner_diameter_m_ * inner_diameter_m_; }
   T Volume() const { return Area() * length_m_; }
   T length_m_;

@@ -4,13 +4,37 @@
 #include <cstddef>
 
 namespace plenum::model {
+namespace {
 
-double FlowFactor(Gas gas) { return gas == Gas::kCo2 ? 0.79 : 1.0; }
+// At 20 °C and 100 kPa (NIST Chemistry WebBook): R = 8.3145 J/(mol·K) over the molar mass.
+struct GasFacts {
+  double flow_factor;
+  double gas_constant_j_per_kg_k;
+  double heat_capacity_ratio;
+  double viscosity_pa_s;
+};
+constexpr std::array<GasFacts, kGasNames.size()> kFacts = {{
+    {1.0, kGasConstantAirJPerKgK, 1.4, 1.81e-5},
+    {1.0168, 296.8, 1.4, 1.76e-5},
+    {0.9506, 259.8, 1.397, 2.03e-5},
+    {2.8530, 2077.1, 1.667, 1.96e-5},
+    {3.7953, 4124.5, 1.405, 0.88e-5},
+    {0.9031, 208.1, 1.667, 2.23e-5},
+    {0.79, kGasConstantCo2JPerKgK, 1.29, 1.47e-5},
+}};
 
-double HeatCapacityRatio(Gas gas) { return gas == Gas::kCo2 ? 1.29 : 1.4; }
+const GasFacts& Of(Gas gas) { return kFacts[static_cast<std::size_t>(gas)]; }
+
+}  // namespace
+
+double FlowFactor(Gas gas) { return Of(gas).flow_factor; }
+
+double HeatCapacityRatio(Gas gas) { return Of(gas).heat_capacity_ratio; }
+
+double ViscosityPaS(Gas gas) { return Of(gas).viscosity_pa_s; }
 
 double ReferenceDensity(Gas gas) {
-  return gas == Gas::kCo2 ? kReferenceDensityCo2KgPerM3 : kReferenceDensityKgPerM3;
+  return kReferencePressurePa / (Of(gas).gas_constant_j_per_kg_k * kReferenceTemperatureK);
 }
 
 double StandardVolume(double content_pa_m3, double temperature_k) {

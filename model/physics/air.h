@@ -5,6 +5,9 @@
 #ifndef PLENUM_MODEL_PHYSICS_AIR_H_
 #define PLENUM_MODEL_PHYSICS_AIR_H_
 
+#include <array>
+#include <string_view>
+
 namespace plenum::model {
 
 inline constexpr double kReferencePressurePa = 1e5;
@@ -25,14 +28,20 @@ struct Ambient {
   bool operator==(const Ambient&) const = default;
 };
 
-enum class Gas { kAir, kCo2 };
+enum class Gas { kAir, kNitrogen, kOxygen, kHelium, kHydrogen, kArgon, kCo2 };
+inline constexpr std::array<std::string_view, 7> kGasNames = {  // in the order of the gases
+    "air", "nitrogen", "oxygen", "helium", "hydrogen", "argon", "co2"};
 
-// Factor on the standard volume flow of air that `gas` reaches through the same element: 1 for
-// air, 0.79 for CO2 (ratio of the ideal choked nozzle flows; used both ways and at any ratio).
+// Factor on the standard volume flow of air that `gas` reaches through the same element: the ratio
+// of the ideal choked nozzle flows, √(κR)·(2/(κ+1))^((κ+1)/(2(κ−1))) of the gas over that of air;
+// used both ways and at any ratio. 1 for air, 0.79 for CO2.
 double FlowFactor(Gas gas);
 
-// Ratio of heat capacities c_p/c_v: 1.4 for air, 1.29 for CO2.
+// Ratio of heat capacities κ = c_p/c_v at 20 °C: 1.4 for air, 1.29 for CO2.
 double HeatCapacityRatio(Gas gas);
+
+// Dynamic viscosity at 20 °C and pressures that pneumatics has, Pa·s.
+double ViscosityPaS(Gas gas);
 
 // Density at the reference state, kg/m³.
 double ReferenceDensity(Gas gas);

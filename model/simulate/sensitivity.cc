@@ -77,6 +77,7 @@ std::vector<RigNumber> NumbersOfParts(const Rig& rig) {
   Collector all;
   all.Add("ambient.pressure_pa", rig.ambient.pressure_pa);
   all.Add("ambient.temperature_k", rig.ambient.temperature_k);
+  if (rig.exhaust_pressure_pa > 0.0) all.Add("exhaust_pressure_pa", rig.exhaust_pressure_pa);
   std::visit([&](const auto& source) { AddSource(source, all); }, rig.source);
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     AddGroup("groups[" + std::to_string(i) + "].", rig.groups[i], all);

@@ -22,7 +22,7 @@ std::optional<T> System<T>::KinkRatio(const Group& group, std::size_t line, cons
   const bool plain = group.units.empty();
   const T tail = plain ? y[group.at] : group.moment.tail_pa;
   const Line<T>& flow = group.lines[line];
-  if (line == kExhaust) return flow.RatioOf(tail, ambient_pa_);
+  if (line == kExhaust) return flow.RatioOf(tail, exhaust_pa_);
   const T source = SourcePressure(t, y);
   const T head = group.lines[kFeed].empty() ? source : group.moment.head_pa;
   if (line == kFeed) {

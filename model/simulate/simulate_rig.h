@@ -91,6 +91,7 @@ using Source = std::variant<NoSource, RegulatedSource, ReservoirSource, DrivenSo
 struct Rig {
   Ambient ambient;
   Gas gas = Gas::kAir;
+  double exhaust_pressure_pa = 0.0;  // what lines open into when they deflate; 0: the ambient's
   Source source;
   std::vector<GroupRig> groups;
 };

@@ -39,6 +39,8 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
     : rig_(rig),
       ambient_pa_(lift.operator()<T>(rig.ambient.pressure_pa)),
       ambient_k_(lift.operator()<T>(rig.ambient.temperature_k)),
+      exhaust_pa_(rig.exhaust_pressure_pa > 0.0 ? lift.operator()<T>(rig.exhaust_pressure_pa)
+                                                : ambient_pa_),
       regulated_(std::get_if<RegulatedSource>(&rig.source)),
       reservoir_(std::get_if<ReservoirSource>(&rig.source)),
       driven_(std::get_if<DrivenSource>(&rig.source)),
@@ -53,10 +55,9 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
     source_initial_pa_ = regulated_pa_ = lift.operator()<T>(regulated_->pressure_pa);
     supply_.pressure_pa = regulated_pa_;
     supply_.flow_max_m3_per_s = regulated_->flow_max_m3_per_s;
-    if (regulated_->regulator) {
+    if (regulated_->regulator)
       supply_.regulator.emplace(Lifted<T>({&*regulated_->regulator, 1}, factor, lift),
                                 line_options_);
-    }
     node_at_supply_ = !supply_.regulator && std::isinf(supply_.flow_max_m3_per_s);
   }
   if (const auto* pumps = std::get_if<PumpSource>(&rig.source)) {
@@ -115,6 +116,8 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
   setup.source_pressure_pa = source_initial_pa_;
   setup.flow_factor = factor;
   setup.heat_capacity_ratio = HeatCapacityRatio(rig_.gas);
+  setup.reference_density_kg_per_m3 = ReferenceDensity(rig_.gas);
+  setup.viscosity_pa_s = ViscosityPaS(rig_.gas);
   setup.fill = Lifted<T>(rig.fill, factor, lift);
   setup.exhaust = Lifted<T>(rig.exhaust, factor, lift);
   group.units = MakeUnits<T>(rig.effects, lift);
@@ -282,7 +285,7 @@ bool System<T>::source_may_rise(double source_pa) const {
 template <class T>
 T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
   const Group& group = groups_[i];
-  if (group.venting.end > 0.0) return ambient_pa_ + group.lines[kExhaust].cracking_pressure_pa();
+  if (group.venting.end > 0.0) return exhaust_pa_ + group.lines[kExhaust].cracking_pressure_pa();
   const T& highest_pa = supply_.pump ? supply_.pressure_pa : source_pa;
   const T behind_pa = highest_pa - group.lines[kFill].cracking_pressure_pa();
   return supply_.regulator ? T(behind_pa - supply_.regulator->cracking_pressure_pa()) : behind_pa;
@@ -350,8 +353,8 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
       const Line<T>& out = group.lines[kExhaust];
       const bool whole = IsZero(T(venting - 1.0));
       m.line_out_m3_per_s =
-          whole ? out.Flow(m.tail_pa, ambient_pa_, group.regime[kExhaust])
-                : out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, ambient_pa_);
+          whole ? out.Flow(m.tail_pa, exhaust_pa_, group.regime[kExhaust])
+                : out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
@@ -526,13 +529,13 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
   if (m.line_out_m3_per_s > 0.0) {
     if (!(group.venting.At(t) < 1.0))
       return PressureBehind(setup.exhaust, group.exhaust_before_inlet, m.line_factor,
-                            setup.exhaust_fixed, m.tail_pa, ambient_pa_);
+                            setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
     const Line<T> tube(exhaust.first(group.exhaust_before_inlet), line_options_);
     if (tube.empty()) return m.tail_pa;
     T flow = m.line_out_m3_per_s / m.line_factor;
     if (group.heated) flow /= sqrt(ambient_k_ / m.tail_temperature_k);
     const auto out = [&](const T& inlet_pa) { return tube.Flow(m.tail_pa, inlet_pa); };
-    return PressureAt<T>(out, flow, ambient_pa_, m.tail_pa);
+    return PressureAt<T>(out, flow, exhaust_pa_, m.tail_pa);
   }
   return m.tail_pa;
 }

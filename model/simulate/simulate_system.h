@@ -184,7 +184,7 @@ class System {
   T PumpPower(const T& source_pa) const;
 
   const Rig& rig_;
-  T ambient_pa_, ambient_k_;
+  T ambient_pa_, ambient_k_, exhaust_pa_;
   T content_rate_;  // Pa·m³ per m³ ANR: P0·T_a/T0
   const RegulatedSource* regulated_ = nullptr;
   const ReservoirSource* reservoir_ = nullptr;

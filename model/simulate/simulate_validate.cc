@@ -164,6 +164,7 @@ std::string WhyInvalid(const Rig& rig) {
   Check check;
   check.Positive("ambient.pressure_pa", rig.ambient.pressure_pa);
   check.Positive("ambient.temperature_k", rig.ambient.temperature_k);
+  check.NotNegative("exhaust_pressure_pa", rig.exhaust_pressure_pa);
   if (rig.groups.empty()) check.Fails("groups", "is empty, must hold at least one group");
   if (!check.reason().empty()) return check.reason();
 
@@ -174,6 +175,8 @@ std::string WhyInvalid(const Rig& rig) {
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     std::string reason = WhyGroupInvalid(rig.groups[i], i, rig.ambient);
     if (!reason.empty()) return reason;
+    if (rig.groups[i].chamber.evacuated && rig.exhaust_pressure_pa > 0.0)
+      return "exhaust_pressure_pa is for actuators under pressure, not evacuated ones";
     if (rig.groups[i].chamber.evacuated != rig.groups[0].chamber.evacuated)
       return "groups[" + std::to_string(i) + "].chamber.evacuated: one for all groups of a rig";
     if (!std::holds_alternative<PumpSource>(rig.source)) continue;

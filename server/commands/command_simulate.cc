@@ -116,27 +116,26 @@ Command FileCommand(const char* name, const char* help, const char* example,
 
 Command SimulateCommand() {
   auto options = std::make_shared<SimulateOptions>();
-  return {
-      "simulate",
-      "Pressures of one given design, or of a model of a diagnosis, over time",
-      "plenum simulate examples/simulation_effects.json",
-      {{"FILE", "Request as JSON; - is standard input", &options->file, {.value_name = ""}},
-       {"--from", "The answer of a diagnosis: its curves", &options->from, {.value_name = "FILE"}},
-       {"--run", "One of its runs; all without it", &options->run, {.value_name = "ID"}},
-       {"--model",
-        "The model of the diagnosis",
-        &options->model,
-        {.shows_default = true,
-         .allowed =
-             OneOf(std::begin(api::kModelsOfADiagnosis), std::end(api::kModelsOfADiagnosis))}},
-       {"--measurement",
-        "What was measured, where the answer names readings by hash",
-        &options->measurement,
-        {.value_name = "FILE"}},
-       {"--rig", "The rig of CSV files, as JSON", &options->csv.rig, {.value_name = "FILE"}},
-       JsonFlag(options->json),
-       CatalogOption(options->catalog)},
-      [options] { return Simulate(*options); }};
+  std::vector<Option> table = {
+      {"FILE", "Request as JSON; - is standard input", &options->file, {.value_name = ""}},
+      {"--from", "The answer of a diagnosis: its curves", &options->from, {.value_name = "FILE"}},
+      {"--run", "One of its runs; all without it", &options->run, {.value_name = "ID"}},
+      {"--model",
+       "The model of the diagnosis",
+       &options->model,
+       {.shows_default = true,
+        .allowed =
+            OneOf(std::begin(api::kModelsOfADiagnosis), std::end(api::kModelsOfADiagnosis))}},
+      {"--measurement",
+       "What was measured, where the answer names readings by hash",
+       &options->measurement,
+       {.value_name = "FILE"}}};
+  for (Option& option : CsvOptionTable(options->csv)) table.push_back(std::move(option));
+  table.push_back(JsonFlag(options->json));
+  table.push_back(CatalogOption(options->catalog));
+  return {"simulate", "Pressures of one given design, or of a model of a diagnosis, over time",
+          "plenum simulate examples/simulation_effects.json", std::move(table),
+          [options] { return Simulate(*options); }};
 }
 
 Command EvaluateCommand() {

@@ -85,6 +85,19 @@ TEST(WrongNumbers, ConductanceAndVolumeAreATie) {
   EXPECT_THAT(d.sentence, testing::HasSubstr("another rest_volume"));
 }
 
+// The same where the volumes are declared as a table: it is too small throughout.
+TEST(WrongNumbers, ATableOfVolumesMayBeWrongLikeARestVolume) {
+  Dataset dataset = Measured([](EffectRig& rig) { rig.rest_volume_m3 *= 1.2; }, true);
+  for (auto& run : dataset.runs) {
+    run.chamber.expansion_ratio = 1.0;
+    run.chamber.volume_curve = model::MonotoneCurve({1e5, 2e5, 5e5}, {50e-6, 100e-6, 250e-6});
+  }
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kTie) << d.sentence;
+  EXPECT_THAT(d.tied,
+              UnorderedElementsAre(Set{"number:rest_volume"}, Set{"number:sonic_conductance"}));
+}
+
 // With little noise the numbers that are not freed must not keep what the freed one is to take up:
 // fits crawl along the bent valley of equal C/V.
 TEST(WrongNumbers, UncertainConductanceAndVolumeAreATieInQuietReadings) {

@@ -24,6 +24,19 @@ TEST(Air, CarbonDioxideFlowsAsThroughAnIdealNozzle) {
               0.005);
 }
 
+TEST(Air, EveryGasFlowsAsThroughAnIdealNozzle) {
+  const double air = ChokedVolumeFlux(1.4, kGasConstantAirJPerKgK);
+  for (std::size_t k = 0; k < kGasNames.size(); ++k) {
+    const Gas gas = static_cast<Gas>(k);
+    const double constant = kReferencePressurePa / (ReferenceDensity(gas) * kReferenceTemperatureK);
+    EXPECT_NEAR(FlowFactor(gas), ChokedVolumeFlux(HeatCapacityRatio(gas), constant) / air, 0.002)
+        << kGasNames[k];
+  }
+  // Molar masses in kg/mol: as dense as these are at 20 °C and 100 kPa.
+  EXPECT_NEAR(ReferenceDensity(Gas::kHelium), 4.0026e-3 * 1e5 / (8.31446 * 293.15), 1e-3);
+  EXPECT_NEAR(ReferenceDensity(Gas::kArgon), 39.948e-3 * 1e5 / (8.31446 * 293.15), 1e-3);
+}
+
 TEST(Air, CarbonDioxideOfTheExosuitRun) {
   // 897 standard litres are 1.06 kg of air or 1.62 kg of CO2.
   EXPECT_NEAR(0.897 * ReferenceDensity(Gas::kAir), 1.06, 0.01);

@@ -48,5 +48,21 @@ TEST_F(RecordingCommand, AsksForAUnitAndTakesTheAnswer) {
   EXPECT_EQ(understood["runs"][0]["readings"], 12);
 }
 
+// The curves of its diagnosis, where the recording stands apart, take the same answers.
+TEST_F(RecordingCommand, CurvesTakeTheAnswersThatTheDiagnosisTook) {
+  const std::string table = " --rig rig.json --column 'Zeit=t_s [ms]'";
+  const auto told = bench_.Run("diagnose bench.csv" + table + " --time-limit 0.05 --json");
+  ASSERT_EQ(told.status, 0) << told.err;
+  bench_.Write("answer.json", told.out);
+  const auto asked =
+      bench_.Run("simulate --from answer.json --measurement bench.csv --rig rig.json");
+  EXPECT_EQ(asked.status, 2);
+  EXPECT_THAT(asked.err, HasSubstr("in which unit is it?"));
+  const auto curves = bench_.Run(
+      "simulate --from answer.json --model declared --measurement bench.csv" + table + " --json");
+  ASSERT_EQ(curves.status, 0) << curves.err;
+  EXPECT_EQ(api::Json::parse(curves.out)["runs"][0]["t_s"].size(), 12u);
+}
+
 }  // namespace
 }  // namespace plenum::server
