@@ -84,11 +84,11 @@ OperatingPoint PointAtHighest(const Candidate& candidate, const GroupPressures& 
   return PointWith(std::move(group_pa), tank_m3);
 }
 
-OperatingPoint PointAtShare(const GroupPressures& pressures, double share, double most_pa,
-                            double tank_m3) {
+OperatingPoint PointAtShare(const std::vector<Window>& windows, double share, double tank_m3) {
   std::vector<double> group_pa;
-  for (const auto& [low_pa, high_pa] : pressures.windows)
-    group_pa.push_back(low_pa + share * (std::max(low_pa, std::min(most_pa, high_pa)) - low_pa));
+  group_pa.reserve(windows.size());
+  for (const auto& [low_pa, high_pa] : windows)
+    group_pa.push_back(low_pa + share * (high_pa - low_pa));
   return PointWith(std::move(group_pa), tank_m3);
 }
 

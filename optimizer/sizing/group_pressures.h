@@ -27,11 +27,10 @@ struct GroupPressures {
 GroupPressures NeededGroupPressures(const Problem& problem, const Candidate& candidate);
 
 // The settings described above with this highest pressure, and those with each group at such a
-// share of the way from its least to its highest pressure, at most `most_pa`.
+// share of the way through its window.
 OperatingPoint PointAtHighest(const Candidate& candidate, const GroupPressures& pressures,
                               double highest_pa, double tank_m3);
-OperatingPoint PointAtShare(const GroupPressures& pressures, double share, double most_pa,
-                            double tank_m3);
+OperatingPoint PointAtShare(const std::vector<Window>& windows, double share, double tank_m3);
 
 }  // namespace plenum::optimizer
 

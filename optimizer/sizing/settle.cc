@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/sizing/group_pressures.h"
@@ -81,17 +82,46 @@ class Freedom {
   std::map<double, Evaluation> evaluations_;
 };
 
-// Groups behind regulators of their own go each from the least pressure that it needs to the
-// highest, in step.
+// Of a holding group that is not the highest: where its rise and its peak have the same to spare.
+// Up to `free_pa` that costs nothing.
+double Balanced(const Problem& problem, const Candidate& candidate, const Window& window, int g,
+                double free_pa) {
+  const ActuatorGroup& group = problem.groups[g];
+  const auto excess = [&](double pa) {
+    OperatingPoint point{pa};
+    point.group_pa.assign(problem.groups.size(), pa);
+    Strokes strokes = ToBeKept(problem);
+    if (!StrokesOfGroup(problem, candidate, point, g, strokes)) return 0.0;
+    const double fast = 1.0 - std::max(strokes.rise_s[g] / group.rise_time_max_s,
+                                       strokes.inflate_s[g] / InflateWindow(problem, g));
+    const double ambient_pa = problem.ambient.pressure_pa;
+    const double low = 1.0 - (PeakOf(problem, candidate, g, pa) - ambient_pa) /
+                                 (group.pressure_max_pa - ambient_pa);
+    return low - fast;
+  };
+  return SmallestFeasible(excess, window.low_pa, std::min(window.high_pa, free_pa),
+                          kBalanceTolerance);
+}
+
+// Behind regulators of their own the groups that the highest pressure asks nothing of are balanced
+// each by itself. The others go from the least that they need to the highest, in step.
 OperatingPoint SettleGroups(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
   const GroupPressures pressures = NeededGroupPressures(problem, candidate);
   if (pressures.status != LeafStatus::kFeasible) return leaf.point;
+  const double free_pa = std::max(pressures.least_pa(), InletMinPa(problem, candidate));
   double most_pa = pressures.most_pa();
   if (candidate.configuration == Configuration::kTank)
-    most_pa =
-        HoldAll(candidate) ? std::max(pressures.least_pa(), InletMinPa(problem, candidate)) : 0.0;
+    most_pa = HoldAll(candidate) ? free_pa : pressures.least_pa();
+  std::vector<Window> windows = pressures.windows;
+  for (int g = 0; g < static_cast<int>(windows.size()); ++g) {
+    auto& [low_pa, high_pa] = windows[g];
+    if (candidate.lines[g]->holds && low_pa < pressures.least_pa())
+      low_pa = high_pa = Balanced(problem, candidate, windows[g], g, free_pa);
+    else
+      high_pa = std::max(low_pa, std::min(high_pa, most_pa));
+  }
   Freedom freedom(problem, candidate, [&](double share) {
-    return PointAtShare(pressures, share, most_pa, leaf.point.reservoir_m3);
+    return PointAtShare(windows, share, leaf.point.reservoir_m3);
   });
   if (!(freedom.SmallestMarginAt(0.0) >= 0.0)) return leaf.point;
   const double share = freedom.Balance();

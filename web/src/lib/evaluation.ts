@@ -136,14 +136,10 @@ const tubeOf = (requirements: Requirements, name: string | null): number => {
 };
 
 // Regulators of groups are turned in step with the source.
-const groupPressures = (design: Design, change: Change) => {
+export const groupPressures = (design: Design, change: Change): number[] | undefined => {
   const { group_pressure_kpa_gauge, source_pressure_kpa_gauge } = design.settings;
   const factor = change.source_kpa / source_pressure_kpa_gauge;
-  return (
-    group_pressure_kpa_gauge && {
-      group_pressure_kpa_gauge: group_pressure_kpa_gauge.map((kpa) => kpa * factor),
-    }
-  );
+  return group_pressure_kpa_gauge?.map((kpa) => kpa * factor);
 };
 
 export const evaluate = (
@@ -164,7 +160,7 @@ export const evaluate = (
       })),
       settings: {
         source_pressure_kpa_gauge: change.source_kpa,
-        ...groupPressures(design, change),
+        group_pressure_kpa_gauge: groupPressures(design, change),
         reservoir_volume_ml: change.reservoir_ml,
       },
     },

@@ -1,7 +1,7 @@
 // A design as a simulation/1 request: the same line, source and schedule that its ranking used.
 import { loadPart, numberOf } from './catalogue';
-import { type Change, changed } from './evaluation';
-import type { Design, Effect, Group, Part, Requirements } from './types';
+import { type Change, changed, groupPressures } from './evaluation';
+import type { Design, Effect, Group, Part, Requirements, Response } from './types';
 import { isDirect } from './vacuum';
 
 export type Parts = Map<string, Part>;
@@ -37,7 +37,14 @@ export function lineOf(design: Design, group: Group) {
   };
 }
 
-function sourceOf(design: Design, requirements: Requirements, parts: Parts, change: Change) {
+// What feeds all groups, or one behind a regulator of its own, by its place.
+function sourceOf(
+  design: Design,
+  requirements: Requirements,
+  parts: Parts,
+  change: Change,
+  own: number | null,
+) {
   const pump = rowOf(design, 'compressor') ?? rowOf(design, 'vacuum_pump');
   if (pump) {
     // Pumps take in volume: the table is of 100 kPa, and holds at the same ratios of pressure.
@@ -58,7 +65,7 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
       stop_pressure_kpa_gauge: change.source_kpa,
     };
   }
-  const row = rowOf(design, 'regulator');
+  const row = rowOf(design, 'regulator', own === null ? undefined : nameOf(requirements, own));
   if (design.configuration === 'tank' && !row) {
     return {
       kind: 'tank',
@@ -75,7 +82,8 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
   ].filter((flow): flow is number => flow !== null);
   return {
     kind: 'regulated',
-    source_pressure_kpa_gauge: change.source_kpa,
+    source_pressure_kpa_gauge:
+      own === null ? change.source_kpa : groupPressures(design, change)![own],
     ...(regulator && {
       regulator: {
         sonic_conductance_dm3_per_s_bar: numberOf(regulator, 'sonic_conductance_dm3_per_s_bar'),
@@ -85,6 +93,9 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
     ...(flows.length > 0 && { flow_l_per_min_anr_max: Math.min(...flows) }),
   };
 }
+
+const nameOf = (requirements: Requirements, g: number) =>
+  requirements.actuators[g]!.name ?? `group ${g + 1}`;
 
 export const traceName = (trace: { name: string; phase?: number }) =>
   trace.phase === undefined ? trace.name : `${trace.name}, phase ${trace.phase}`;
@@ -130,13 +141,45 @@ export const chamberOf = (group: Group) => ({
   operating_pressure_kpa_gauge: group.operating_pressure_kpa_gauge,
 });
 
-export function simulationOf(
+// One request, or where each group has a regulator of its own one of each.
+export function simulationsOf(
   design: Design,
   asked: Requirements,
   parts: Parts,
   change: Change,
   cycles: number,
   effects: Effect[] = [],
+): unknown[] {
+  const each = design.settings.group_pressure_kpa_gauge;
+  const places = each ? each.map((_, g) => g) : [null];
+  return places.map((own) => simulationOf(design, asked, parts, change, cycles, effects, own));
+}
+
+// The responses to these requests as one; the source's pressure is the highest of all.
+export function joined(responses: Response[]): Response {
+  const [first] = responses as [Response, ...Response[]];
+  if (responses.length === 1) return first;
+  return {
+    ...first,
+    groups: responses.flatMap(({ groups }) => groups),
+    performance: {
+      ...first.performance,
+      groups: responses.flatMap(({ performance }) => performance.groups),
+    },
+    source_pressure_kpa_gauge: first.source_pressure_kpa_gauge.map((_, i) =>
+      Math.max(...responses.map(({ source_pressure_kpa_gauge }) => source_pressure_kpa_gauge[i]!)),
+    ),
+  };
+}
+
+function simulationOf(
+  design: Design,
+  asked: Requirements,
+  parts: Parts,
+  change: Change,
+  cycles: number,
+  effects: Effect[],
+  own: number | null,
 ): unknown {
   const requirements = changed(asked, change);
   const end = cycles / requirements.duty.frequency_hz;
@@ -149,7 +192,10 @@ export function simulationOf(
     ...(requirements.ambient && { ambient: requirements.ambient }),
     ...(requirements.rise && { rise: requirements.rise }),
     ...(requirements.fall && { fall: requirements.fall }),
-    actuators: squadsOf(requirements).map(({ group, phase, count, name }) => {
+    actuators: (own === null
+      ? squadsOf(requirements)
+      : squadsOf(requirements).filter(({ group }) => group === requirements.actuators[own])
+    ).map(({ group, phase, count, name }) => {
       const valve = parts.get(rowOf(design, 'valve', group.name)?.id ?? '');
       return {
         name,
@@ -160,7 +206,7 @@ export function simulationOf(
         valve: schedule(requirements, group, phase, cycles),
       };
     }),
-    source: sourceOf(design, requirements, parts, change),
+    source: sourceOf(design, requirements, parts, change, own),
     t_end_s: end,
     sample_hz: 2400 / end,
   };

@@ -4,7 +4,7 @@ import { useEffect, useRef } from 'preact/hooks';
 
 import { asProblem, post, type Problem } from '../lib/api';
 import { asDesigned, type Change, evaluate, type Evaluation } from '../lib/evaluation';
-import { missingPart, type Parts, simulationOf } from '../lib/rig';
+import { joined, missingPart, type Parts, simulationsOf } from '../lib/rig';
 import { route, setQuery } from '../lib/route';
 import type { Design, Effect, Requirements, Response } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
@@ -62,14 +62,12 @@ export function WhatIf({
   const missing = missingPart(design, parts);
   const isChanged = useComputed(() => JSON.stringify(change.value) !== JSON.stringify(start));
   const run = async (what: Change): Promise<Tried> => {
-    const [response, evaluation] = await Promise.all([
-      post<Response>(
-        '/v1/simulations',
-        simulationOf(design, requirements, parts, what, Number(cycles.peek()), effects),
-      ),
+    const asked = simulationsOf(design, requirements, parts, what, Number(cycles.peek()), effects);
+    const [evaluation, ...responses] = await Promise.all([
       evaluate(design, requirements, what),
+      ...asked.map((request) => post<Response>('/v1/simulations', request)),
     ]);
-    return { response, evaluation };
+    return { response: joined(responses), evaluation };
   };
 
   useEffect(() => {
