@@ -197,10 +197,12 @@ class Diagnosing {
     evidence.complete = Complete();
     diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
     if (!base_->fit.Usable()) StateDeclared(bench_, diagnosis_);
+    if (!base_->fit.Usable() && Stopped()) {
+      diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
+      return;
+    }
     if (!base_->fit.Usable()) {
-      diagnosis_.sentence = Stopped()
-                                ? Sentence(bench_, search_, diagnosis_)
-                                : "The base model could not be fitted: " + base_->fit.detail + ".";
+      diagnosis_.sentence = "The base model could not be fitted: " + base_->fit.detail + ".";
       return;
     }
     evidence.before = LeftoverOf(bench_, base_->fit, !Stopped());
@@ -229,10 +231,7 @@ class Diagnosing {
     std::string doubt;  // why the chosen set is not named, where it is not
     // Effects are established where they account for most of the residual and a term learned
     // without them does not do as well; which of several they are may still be open.
-    const bool needless = diagnosis_.verdict == Verdict::kAdequate && evidence.accepted;
-    if (needless) doubt = DoubtOf(evidence);
-    bool established = evidence.accepted && !needless &&
-                       !PredictsWorse(evidence.before, evidence.after) &&
+    bool established = evidence.accepted && !PredictsWorse(evidence.before, evidence.after) &&
                        UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
     if (evidence.imitated && tied_.size() > 1u) established = false;
     if (evidence.complete && established) doubt = DoubtOfNames(evidence);
@@ -240,8 +239,7 @@ class Diagnosing {
     const bool open = diagnosis_.verdict == Verdict::kTie ||
                       (diagnosis_.verdict == Verdict::kUnexplained && established &&
                        !evidence.imitated && tied_.size() > 1u);
-    const Contender* shown = needless ? base_ : &chosen;
-    if (needless) evidence.after = evidence.before;
+    const Contender* shown = &chosen;
     if (diagnosis_.verdict == Verdict::kUnexplained) {
       LearnedModel learned = Learn(open, established);
       if (!established && doubt.empty()) doubt = DoubtOf(evidence);

@@ -16,9 +16,7 @@ namespace plenum::calibration {
 namespace {
 
 constexpr double kParameterTolerance = 1e-7;
-constexpr int kPhases = 8;                                 // in a round
-constexpr double kMuch = 4.0;                              // squares of the noise
-constexpr double kClockStarts[] = {-1.0, -0.5, 0.5, 1.0};  // intervals between readings
+constexpr int kPhases = 8;  // in a round
 
 class StopWhenCancelled : public ceres::IterationCallback {
  public:
@@ -270,11 +268,6 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   return fit;
 }
 
-// Far more than the noise of its readings.
-static bool LeavesMuch(const Fit& fit) {
-  return fit.Usable() && fit.chi2_data > kMuch * static_cast<double>(fit.rows);
-}
-
 Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, FitOptions options) {
   FitData alone = data;
   alone.runs = {run};
@@ -282,18 +275,7 @@ Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, Fi
   options.own_pairs = HasOwnPairs(data, run);
   ModelState own = state;
   own.freed = {};
-  Fit best = FitModel(alone, own, options);
-  if (!Fits(best.coordinates, Parameter::Kind::kClock) || !LeavesMuch(best)) return best;
-  // A stroke between two readings moves none of them with the clock.
-  const std::vector<double>& t_s = data.forward->dataset().runs[run].t_s;
-  const double interval_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
-  for (const double intervals : kClockStarts) {
-    own.clock_s[run] = intervals * interval_s;
-    Fit fit = FitModel(alone, own, options);
-    if (fit.Usable() && fit.chi2_data + fit.chi2_prior < best.chi2_data + best.chi2_prior)
-      best = std::move(fit);
-  }
-  return best;
+  return FitModel(alone, own, options);
 }
 
 ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,

@@ -176,7 +176,6 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   if (!fit.Usable()) return leftover;
   std::vector<FittedRun> runs;
   Squares squares;
-  double low_pa = std::numeric_limits<double>::infinity(), high_pa = -low_pa;
   const std::vector<Reading> readings = ReadingsOf(bench, fit.state);
   for (std::size_t k = 0; k < readings.size(); ++k) {
     const std::size_t i = bench.data.runs[k];
@@ -187,10 +186,6 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
     leftover.rough_noise = leftover.rough_noise || !(noise.relative_error < kRoughNoise);
     for (const double r : PressureResidual(bench.dataset.runs[i], bench.observed[i], reading))
       squares.Add(r);
-    for (const std::size_t at : bench.observed[i].signals.front().samples) {
-      low_pa = std::min(low_pa, bench.dataset.runs[i].pressure_pa[at]);
-      high_pa = std::max(high_pa, bench.dataset.runs[i].pressure_pa[at]);
-    }
     leftover.channels_above += ChannelsAbove(bench.dataset.runs[i], bench.observed[i], reading);
   }
   leftover.channels_above = std::max(0.0, leftover.channels_above);
@@ -198,7 +193,6 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()), nullptr,
                                       bench.tight.cancelled);
   leftover.rms_pa = squares.Rms();
-  leftover.range_pa = std::max(0.0, high_pa - low_pa);
   leftover.priors_hold = PriorsHold(fit);
   // A memory that leaves the residual coloured is not that of the noise.
   const double underread = leftover.residual.white ? std::sqrt(leftover.residual.underread) : 1.0;

@@ -311,11 +311,8 @@ static std::string UnexplainedSentence(const Contender& chosen, const std::strin
     return Named(chosen, diagnosis) + ", but structure is left that no known effect accounts for.";
   const bool withdrawn = std::any_of(diagnosis.stability.begin(), diagnosis.stability.end(),
                                      [](const StabilityChange& change) { return !change.holds; });
-  if (withdrawn) return "No explanation holds when the readings are changed a little.";
-  return PassesTests(diagnosis.residual)
-             ? "Runs that no fit saw are off by more than their noise, though the fitted ones are "
-               "not: something differs between runs."
-             : "Structure is left that no known effect accounts for.";
+  return withdrawn ? "No explanation holds when the readings are changed a little."
+                   : "Structure is left that no known effect accounts for.";
 }
 
 // What is to be said of runs that no fit saw where they are not predicted better.
@@ -351,10 +348,8 @@ std::string Sentence(const Bench& bench, const SearchResult& search, const Diagn
     case Verdict::kUndecided:
       break;
   }
-  if (Stopped(bench)) return "Undecided: the search was stopped before its end.";
-  return search.complete && chosen.fit.Usable()
-             ? "Undecided: the readings are too few to tell their noise from what the model lacks."
-             : "Undecided: a fit that matters failed.";
+  return Stopped(bench) ? "Undecided: the search was stopped before its end."
+                        : "Undecided: a fit that matters failed.";
 }
 
 }  // namespace plenum::calibration

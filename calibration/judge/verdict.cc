@@ -31,21 +31,6 @@ bool HoldsOut(const Leftover& leftover) {
          std::hypot(noise_pa, std::sqrt(kHoldoutSpread) * leftover.holdout_spread_pa);
 }
 
-// Most of what the base model leaves, of the runs that were fitted and of those that were not.
-bool IsTold(const Leftover& before, const Leftover& after) {
-  const bool seen = std::pow(after.rms_pa, 2) <= kEstablished * std::pow(before.rms_pa, 2);
-  if (!before.holdout_rms_pa || !after.holdout_rms_pa) return seen;
-  return seen &&
-         std::pow(*after.holdout_rms_pa, 2) <= kRoughHoldout * std::pow(*before.holdout_rms_pa, 2);
-}
-
-// The base model is good enough, and the set predicts runs that no fit saw no better.
-bool IsNeedless(const Evidence& evidence) {
-  const Leftover &before = evidence.before, &after = evidence.after;
-  return IsNoise(before) && !TooFewToTell(before) && HoldsOut(before) && before.holdout_rms_pa &&
-         after.holdout_rms_pa && *after.holdout_rms_pa >= *before.holdout_rms_pa;
-}
-
 }  // namespace
 
 bool IsNoise(const Leftover& leftover) {
@@ -56,8 +41,7 @@ bool IsNoise(const Leftover& leftover) {
 
 bool PredictsWorse(const Leftover& before, const Leftover& after) {
   if (!before.holdout_rms_pa || !after.holdout_rms_pa) return false;
-  // Noise that was taken from what fits leave says nothing of runs that no fit saw.
-  const double noise_pa = after.rough_noise ? 0.0 : after.holdout_noise_pa.value_or(after.noise_pa);
+  const double noise_pa = after.holdout_noise_pa.value_or(after.noise_pa);
   return *after.holdout_rms_pa > std::max(*before.holdout_rms_pa, kHoldout * noise_pa);
 }
 
@@ -73,31 +57,22 @@ double UnexplainedFraction(const Leftover& before, const Leftover& after) {
   return std::min(1.0, AboveInAll(after, before.noise_pa) / all_before);
 }
 
-bool TooFewToTell(const Leftover& leftover) {
-  return leftover.rough_noise && leftover.rms_pa > kRoughShare * leftover.range_pa;
-}
-
 Verdict Judge(const Evidence& evidence) {
   if (!evidence.complete) return Verdict::kUndecided;
-  if (!evidence.accepted) {
-    if (!IsNoise(evidence.before)) return Verdict::kUnexplained;
-    if (TooFewToTell(evidence.before)) return Verdict::kUndecided;
-    return HoldsOut(evidence.before) ? Verdict::kAdequate : Verdict::kUnexplained;
-  }
-  if (IsNeedless(evidence)) return Verdict::kAdequate;
+  if (!evidence.accepted)
+    return IsNoise(evidence.before) ? Verdict::kAdequate : Verdict::kUnexplained;
   const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
   const bool imitation = evidence.imitated || !evidence.after.priors_hold ||
                          PredictsWorse(evidence.before, evidence.after);
-  const bool told = !evidence.after.rough_noise || IsTold(evidence.before, evidence.after);
+  const bool told =
+      !evidence.after.rough_noise ||
+      std::pow(evidence.after.rms_pa, 2) <= kEstablished * std::pow(evidence.before.rms_pa, 2);
   if (!clean || !told || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }
 
 std::string DoubtOf(const Evidence& evidence) {
   if (!evidence.accepted) return "";
-  if (IsNeedless(evidence))
-    return "predicts runs that no fit saw no better than the model without it, which leaves noise "
-           "alone";
   if (PredictsWorse(evidence.before, evidence.after))
     return "predicts runs that no fit saw worse than the model without it";
   if (evidence.imitated) return "fits no better than one learned term in its place";

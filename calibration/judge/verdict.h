@@ -13,7 +13,6 @@ namespace plenum::calibration {
 struct Leftover {
   ResidualReport residual;
   double rms_pa = 0.0;       // of the fitted runs
-  double range_pa = 0.0;     // of their readings
   double noise_pa = 0.0;     // of the same samples
   bool rough_noise = false;  // few differences showed it, and they may be the signal's
   std::optional<double> holdout_rms_pa;
@@ -51,21 +50,14 @@ struct Evidence {
   bool imitated = false;   // one learned term alone does as well as its several effects
 };
 
-// Whether readings so few that what fits leave is taken for their noise leave too much of that for
-// a model to be called good enough (kRoughShare).
-bool TooFewToTell(const Leftover& leftover);
-
-// In this order: kUndecided if not complete. Without an accepted effect kUndecided if readings are
-// too few to tell, kAdequate if the base model leaves noise alone and runs that the fit did not see
-// are off by no more than below, else kUnexplained. kAdequate, too, if a set is accepted without
-// need: the base model is good enough by itself, and the set predicts such runs no better. With
-// one, kUnexplained where structure is left that is neither noise nor small (kLeftOver,
-// kNegligible), where runs that the fit did not see are off by more than √(kHoldout²·noise² +
-// kHoldoutSpread·spread²), and where the set only imitates what is missing: where the noise is
-// rough it leaves more than kEstablished of the base model's error, or more than kRoughHoldout of
-// that of such runs, it needs declared numbers beyond their uncertainties, one term of unknown
-// cause does what it takes several effects for, or it predicts worse than the base model. Then kTie
-// if others are as good; else kExplained.
+// In this order: kUndecided if not complete. Without an accepted effect kAdequate if the base model
+// leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
+// neither noise nor small (kLeftOver, kNegligible), where runs that the fit did not see are off
+// by more than √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what
+// is missing: where the noise is rough it leaves more than kEstablished of the base model's error,
+// it needs declared numbers beyond their uncertainties, one term of unknown cause does
+// what it takes several effects for, or it predicts worse than the base model. Then kTie if others
+// are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
 // Why the set that fits best is not taken for the explanation; empty of the base model.

@@ -310,25 +310,12 @@ void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
   }
 }
 
-// The readings that may lie on a grid: an end of the range need not.
-std::vector<double> Within(const Readings& readings, const Noise& noise) {
+// An end of the range need not lie on the grid.
+double QuantumWithin(const Readings& readings, const Noise& noise) {
   std::vector<double> within;
   for (const double y : readings.y)
     if (y > noise.clip_low_pa && y < noise.clip_high_pa) within.push_back(y);
-  return within;
-}
-
-// One sensor: where a run shows no grid, what all of them show together.
-void FindQuanta(std::span<const Readings> all, std::vector<Noise>& noises) {
-  std::vector<double> together;
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    const std::vector<double> within = Within(all[j], noises[j]);
-    noises[j].quantum_pa = Quantum(within);
-    together.insert(together.end(), within.begin(), within.end());
-  }
-  const double shared_pa = Quantum(together);
-  for (Noise& noise : noises)
-    if (noise.quantum_pa == 0.0) noise.quantum_pa = shared_pa;
+  return Quantum(within);
 }
 
 }  // namespace
@@ -336,7 +323,8 @@ void FindQuanta(std::span<const Readings> all, std::vector<Noise>& noises) {
 std::vector<Noise> EstimateNoise(std::span<const Readings> all) {
   std::vector<Noise> noises(all.size());
   FindEnds(all, noises);
-  FindQuanta(all, noises);
+  for (std::size_t j = 0; j < all.size(); ++j)
+    noises[j].quantum_pa = QuantumWithin(all[j], noises[j]);
   std::vector<Record> records;
   for (std::size_t j = 0; j < all.size(); ++j) {
     Noise& noise = noises[j];

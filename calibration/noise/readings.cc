@@ -15,7 +15,6 @@ constexpr std::size_t kDistinctMin = 8;  // values on a grid by chance: 0.2^6
 constexpr std::size_t kClipLengthMin = 4;
 constexpr double kClipChance = 1e-3;
 constexpr double kCrowdChance = 1e-6;
-constexpr double kStepChance = 1e-3;
 constexpr int kQuietPairsMin = 30;
 constexpr double kStillShareMax = 0.5;      // more: a staircase that stands by itself
 constexpr double kReversalShareMin = 0.02;  // less: a smooth signal that may well stand still
@@ -124,40 +123,6 @@ double LastPlace(const std::vector<double>& values) {
   return place;
 }
 
-// The step of which all gaps, sorted, are multiples, each within kGridTolerance of it; 0 if they
-// are not. The steps counted along the gaps, from small to large, sharpen it as they go.
-double SharpenedStep(const std::vector<double>& gaps, double step) {
-  double total = 0.0, count = 0.0;
-  for (const double gap : gaps) {
-    const double quantum = count > 0.0 ? total / count : step;
-    const double steps = std::round(gap / quantum);
-    if (std::abs(gap - steps * quantum) > kGridTolerance * quantum) return 0.0;
-    total += gap;
-    count += steps;
-  }
-  return total / count;
-}
-
-// The same where few values are far apart, so that none of the gaps is a single step: the largest
-// part of the least gap of which all others are multiples to the last place that is written; 0
-// where that may be chance.
-double CommonStep(const std::vector<double>& gaps, double place) {
-  double chance = 0.0;
-  for (double parts = 1.0;; parts += 1.0) {
-    const double step = gaps.front() / parts;
-    bool fits = true;
-    double by_chance = 1.0;
-    for (const double gap : gaps) {
-      const double off = place * (1.0 + gap / gaps.front());
-      fits = fits && std::abs(gap - std::round(gap / step) * step) <= off;
-      if (gap != gaps.front()) by_chance *= std::min(1.0, 2.0 * off / step);
-    }
-    chance += by_chance;
-    if (chance > kStepChance) return 0.0;
-    if (fits) return SharpenedStep(gaps, step);
-  }
-}
-
 // Whether the signal moves up to the stretch and then stands still, while no valve acts.
 bool RunsInto(const Readings& readings, const std::vector<std::size_t>& stretch, double step) {
   if (stretch.size() < kStoppedMin || stretch.front() < 2) return false;
@@ -177,13 +142,21 @@ bool RunsInto(const Readings& readings, const std::vector<std::size_t>& stretch,
 double Quantum(std::span<const double> y) {
   const std::vector<double> values = Finite(y);
   if (values.size() < kDistinctMin) return 0.0;
-  std::vector<double> gaps = Gaps(values);
+  const std::vector<double> gaps = Gaps(values);
   const bool recurring = gaps.size() >= 2 && 2 * (gaps.size() + 1) <= values.size();
   if (gaps.size() + 1 < kDistinctMin && !recurring) return 0.0;
-  std::sort(gaps.begin(), gaps.end());
-  if (gaps.size() + 1 < kDistinctMin) return CommonStep(gaps, LastPlace(values));
-  if (const double step = SharpenedStep(gaps, gaps.front()); step > 0.0) return step;
-  return recurring ? CommonStep(gaps, LastPlace(values)) : 0.0;
+  // The steps counted along the gaps, from small to large, sharpen the step as they go.
+  std::vector<double> sorted = gaps;
+  std::sort(sorted.begin(), sorted.end());
+  double total = 0.0, count = 0.0;
+  for (const double gap : sorted) {
+    const double quantum = count > 0.0 ? total / count : sorted.front();
+    const double steps = std::round(gap / quantum);
+    if (std::abs(gap - steps * quantum) > kGridTolerance * quantum) return 0.0;
+    total += gap;
+    count += steps;
+  }
+  return total / count;
 }
 
 std::vector<std::size_t> Clipped(const Readings& readings) {

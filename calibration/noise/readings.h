@@ -20,8 +20,7 @@ struct Readings {
 };
 
 // Step q of the grid that the finite values lie on, each within q/10; 0 if they lie on none. Asked
-// of at least eight distinct values, or of fewer where most readings recur: then no two of them
-// need be a single step apart, if chance would hardly put them on a grid of that step.
+// of at least eight distinct values, or of fewer where most readings recur.
 double Quantum(std::span<const double> y);
 
 // Indices of readings at an end of the sensor's range: of the run's highest or lowest value,

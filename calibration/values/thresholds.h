@@ -25,15 +25,6 @@ inline constexpr double kFewReadings = 150.0;
 // windows showed it (noise.h).
 inline constexpr double kRoughNoise = 0.2;
 
-// The noise of such readings is what fits leave. Gauges are within 1 % of their range; what is left
-// beyond twice that share of the readings' range may as well be structure.
-inline constexpr double kRoughShare = 0.02;
-
-// Runs that no fit saw are then the only yardstick: a named set leaves at most this share of the
-// squares that the base model leaves of them. Of 270 records as a workshop makes them true names
-// left up to 0.25, wrong ones 0.4 to 1.3 (bench/diagnosis/real.sh).
-inline constexpr double kRoughHoldout = 1.0 / 3.0;
-
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.
 inline constexpr double kClock = 10.0;

@@ -188,7 +188,7 @@ TEST(Simulation, NamesEveryFieldThatIsWrong) {
       {"/initial/pressure_kpa_gauge", "-100", "> -100"},
       {"/t_end_s", "0", "> 0"},
       {"/sample_hz", "1e5", "≤ 25000 with t_end_s 8"},
-      {"/gas", "\"argon\"", "air or co2"},
+      {"/gas", "\"xenon\"", "argon or co2"},
       {"/hz", "1", "unknown field"},
   };
   for (const auto& [pointer, value, detail] : cases) {

@@ -31,48 +31,6 @@ TEST(Verdict, OfWhatIsLeft) {
   EXPECT_EQ(Judge({true, true, 2, Structure(900), Structure(400)}), Verdict::kUnexplained);
 }
 
-// Noise that fits left for themselves is no yardstick, neither of what they leave nor of what they
-// miss of runs that they did not see.
-TEST(Verdict, RoughNoiseProvesNothingGoodEnough) {
-  Leftover rough = Noise();
-  rough.rough_noise = true;
-  rough.range_pa = 100.0 * rough.rms_pa;
-  EXPECT_EQ(Judge({true, false, 0, rough, rough}), Verdict::kAdequate);
-  rough.range_pa = 10.0 * rough.rms_pa;
-  EXPECT_EQ(Judge({true, false, 0, rough, rough}), Verdict::kUndecided);
-  Leftover before = Structure(900), after = rough;
-  before.rough_noise = true;
-  before.holdout_rms_pa = 110.0;
-  after.holdout_rms_pa = 120.0;  // within 1.3 of its noise
-  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
-  after.rough_noise = false;
-  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kExplained);
-  after.rough_noise = true;
-  before.holdout_rms_pa = 180.0;  // of which 2/3 are left, 4/9 of the squares
-  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
-  before.holdout_rms_pa = 240.0;
-  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kExplained);
-}
-
-TEST(Verdict, AModelThatMissesRunsHeldOutIsNotGoodEnough) {
-  Leftover off = Noise();
-  off.holdout_rms_pa = 400.0;
-  EXPECT_EQ(Judge({true, false, 0, off, off}), Verdict::kUnexplained);
-  off.holdout_spread_pa = 150.0;  // what the fitted numbers' uncertainty adds
-  EXPECT_EQ(Judge({true, false, 0, off, off}), Verdict::kAdequate);
-}
-
-TEST(Verdict, WhatNeitherTestsNorUnseenRunsAskForIsNotNamed) {
-  Leftover better = Noise();
-  better.rms_pa = 97.0;
-  EXPECT_EQ(Judge({true, true, 0, Noise(), better}), Verdict::kAdequate);  // predicts no better
-  EXPECT_NE(DoubtOf({true, true, 0, Noise(), better}), "");
-  better.holdout_rms_pa = 97.0;
-  EXPECT_EQ(Judge({true, true, 0, Noise(), better}), Verdict::kExplained);
-  better.holdout_rms_pa = better.holdout_noise_pa = {};  // no run tells
-  EXPECT_EQ(Judge({true, true, 0, Noise(), better}), Verdict::kExplained);
-}
-
 TEST(Verdict, ATieMayStandBesideSmallStructure) {
   EXPECT_TRUE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(350)}));
   EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(500)}));
@@ -129,7 +87,6 @@ TEST(Verdict, UnexplainedFractionIsOfTheVarianceAboveTheNoise) {
 // Noise that is the signal's own is as large as what any model leaves.
 TEST(Verdict, BesideRoughNoiseASetMustExplainMostOfTheError) {
   Evidence evidence{true, true, 0, Structure(300), Noise()};
-  evidence.before.holdout_rms_pa = 300.0;
   EXPECT_EQ(Judge(evidence), Verdict::kExplained);
   evidence.after.rough_noise = true;
   EXPECT_EQ(Judge(evidence), Verdict::kExplained);  // a ninth is left

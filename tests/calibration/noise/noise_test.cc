@@ -153,24 +153,6 @@ TEST(Quantum, FindsAGridThroughRoundedDecimalsAndNoneElsewhere) {
   EXPECT_EQ(Quantum(std::vector<double>{}), 0.0);
 }
 
-// A few levels that a chamber rests at, none a single step from another.
-TEST(Quantum, FindsAGridOfWhichNoSingleStepIsSeen) {
-  const double step = 0.8427734375;
-  std::vector<double> y;
-  for (const int level : {51, 51, 51, 51, 18, 4, 4, 4, 4, 0, 0, 0, 0, 0})
-    y.push_back(RoundTo(step * level, 1e-4));
-  EXPECT_NEAR(Quantum(y), step, 1e-4);
-  // Levels of no grid that recur as often.
-  int found = 0;
-  for (int seed = 0; seed < kSeeds; ++seed) {
-    std::vector<double> levels;
-    for (const double level : WhiteNoise(seed, 4, 20.0))
-      for (int k = 0; k < 4; ++k) levels.push_back(RoundTo(level, 1e-4));
-    found += Quantum(levels) > 1e-2;
-  }
-  EXPECT_LE(found, kSeeds / 100);
-}
-
 TEST(Noise, WildReadingsAreNamedAndDoNotRaiseTheLevel) {
   const std::vector<double> t_s = EvenTimes(600, 0.01);
   std::vector<double> ratios;

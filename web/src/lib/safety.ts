@@ -75,9 +75,10 @@ function bottleNotes(design: Design, parts: Parts): string[] {
 }
 
 function lineNotes(design: Design, requirements: Requirements): string[] {
-  const source = design.settings.source_pressure_kpa_gauge;
+  const { source_pressure_kpa_gauge, group_pressure_kpa_gauge } = design.settings;
   const entries = entriesOf(requirements.actuators);
-  const notes = requirements.actuators.flatMap((group) => {
+  const notes = requirements.actuators.flatMap((group, g) => {
+    const source = group_pressure_kpa_gauge?.[g] ?? source_pressure_kpa_gauge;
     const entry = entries.indexOf(group.name.replace(/, (cap|rod) side$/, ''));
     const margin = design.margins.find(
       ({ requirement }) => requirement === `/actuators/${entry}/pressure_kpa_gauge_max`,
@@ -85,15 +86,17 @@ function lineNotes(design: Design, requirements: Requirements): string[] {
     const highest = group.pressure_kpa_gauge_max ?? margin?.required;
     if (!highest || source <= highest) return [];
     return [
-      `The source is at ${pressure(source)}, ${group.name} may have ${pressure(highest)}: a valve that sticks open, or a command that comes late, passes that limit. Let a sensor or a relief valve end it.`,
+      `${group_pressure_kpa_gauge ? 'Its regulator' : 'The source'} is at ${pressure(source)}, ${group.name} may have ${pressure(highest)}: a valve that sticks open, or a command that comes late, passes that limit. Let a sensor or a relief valve end it.`,
     ];
   });
-  const regulator = design.parts.find(({ family }) => family === 'regulator');
-  if (regulator)
-    notes.push(
-      `If ${nameOf(regulator)} fails, the lines have the pressure of the source before it: fit a relief valve behind it.`,
-    );
-  return notes;
+  const regulators = design.parts.filter(({ family }) => family === 'regulator');
+  return [
+    ...notes,
+    ...regulators.map(
+      (row) =>
+        `If ${nameOf(row)} fails, the lines${row.group === null ? '' : ` of ${row.group}`} have the pressure of the source before it: fit a relief valve behind it.`,
+    ),
+  ];
 }
 
 function electricalNotes(design: Design, parts: Parts): string[] {

@@ -56,6 +56,7 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
   const { response } = design;
   const period = 1 / requirements.duty.frequency_hz;
   const groups = requirements.actuators;
+  const own = design.settings.group_pressure_kpa_gauge; // behind a regulator of each group
   return groups.flatMap((group, g) => {
     const traces = response.groups.filter((trace) => trace.name === group.name);
     const found = design.performance.groups.find(({ name }) => name === group.name);
@@ -102,13 +103,10 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
             peak_kpa_gauge: isRise && sign * (peak - operating) > 1e-6 ? peak : null,
             t_s: times,
             pressure_kpa_gauge: cutValues,
-            source_kpa_gauge: cut(
-              response.t_s,
-              response.source_pressure_kpa_gauge,
-              from,
-              length,
-              period,
-            ).cutValues,
+            source_kpa_gauge: own
+              ? times.map(() => own[g]!)
+              : cut(response.t_s, response.source_pressure_kpa_gauge, from, length, period)
+                  .cutValues,
           };
         }
       }

@@ -50,7 +50,7 @@ export function Schematic({
 }) {
   const groups = requirements.actuators;
   const { configuration, settings } = design;
-  const height = Math.max(260, groups.length * groupHeight + 20);
+  const height = Math.max(260, groups.length * groupHeight + 60);
   const middle = height / 2 - 30;
   const yOf = (i: number) => middle + (i - (groups.length - 1) / 2) * groupHeight;
   const source =
