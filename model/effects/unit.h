@@ -35,7 +35,8 @@ struct GroupSetup {
   T source_pressure_pa;  // at the start; the ambient pressure without a source
   T flow_factor;         // √(T0/T_a) and the gas
   double heat_capacity_ratio = 1.4;
-  double reference_density_kg_per_m3 = kReferenceDensityKgPerM3, viscosity_pa_s = 1.81e-5;
+  double reference_density_kg_per_m3 = kReferenceDensityKgPerM3,
+         viscosity_pa_s = ViscosityPaS(Gas::kAir);
   std::vector<LineElement<T>> fill, exhaust;  // in the order crossed, flow_factor included
   std::size_t exhaust_fixed = 0;  // elements at the end of the exhaust that the valve does not turn
   std::vector<LineElement<T>> feed;  // between source and Moment::head_pa; empty: none

@@ -20,6 +20,10 @@ namespace {
 constexpr double kFoundTolerance = 5e-7;
 constexpr double kMeetTolerance = 1e-3;
 
+NeededPressure HighestNeeded(const GroupPressures& groups) {
+  return {groups.status, groups.least_pa(), groups.least_pa()};
+}
+
 }  // namespace
 
 // True also while one of the two is not chosen.
@@ -195,21 +199,14 @@ Constraint Bounds::FindSource(Box& box) {
     box.source_known = true;
     const Candidate candidate = CandidateOf(box);
     if (IsOpenTank(candidate)) return Constraint::kNone;  // each tank has its own
-    if (plan_.own_regulators) {
-      const GroupPressures needed = NeededGroupPressures(problem_, candidate);
-      if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
-      if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
-      box.source_floor_pa = needed.least_pa();
-      if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone)
-        return missed;
-      return RestOfRegulated(box);
-    }
-    const bool meet = StrokesMeet(problem_);
+    const bool meet = StrokesMeet(problem_) && !plan_.own_regulators;
     if (meet && !FastAtHighest(problem_, candidate)) return Constraint::kRise;
     // Where groups meet it is found no closer than bottles have to know it.
     if (meet && plan_.bottle_slot < 0) return Constraint::kNone;
     const NeededPressure needed =
-        NeededSourcePressure(problem_, candidate, {}, meet ? kMeetTolerance : kPressureTolerance);
+        plan_.own_regulators ? HighestNeeded(NeededGroupPressures(problem_, candidate))
+                             : NeededSourcePressure(problem_, candidate, {},
+                                                    meet ? kMeetTolerance : kPressureTolerance);
     if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
     if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
     box.source_floor_pa = meet ? needed.floor_pa : needed.source_pa;

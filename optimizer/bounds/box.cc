@@ -108,7 +108,7 @@ Constraint Bounds::Assess(Box& box, int changed) {
   const int groups = static_cast<int>(plan_.groups.size());
   box.lines.resize(groups);
   for (int g = 0; g < groups; ++g)
-    if (changed < 0 || (changed / kSlotsPerGroup == g && changed < kSlotsPerGroup * groups))
+    if (changed < 0 || changed / kSlotsPerGroup == g)
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   if (!KeepsReservoir(plan_.configuration) && !box.lines_finished)

@@ -15,8 +15,7 @@ constexpr double kRounding = 1.0 - 1e-9;  // of sums in another order
 
 class Sketch {
  public:
-  Sketch(const Problem& problem, const Layout& layout)
-      : problem_(problem), configuration_(layout.configuration) {
+  Sketch(const Problem& problem, const Layout& layout) : problem_(problem) {
     outline_.layout = layout;
     outline_.combinations = outline_.priced = 1;
   }
@@ -25,24 +24,25 @@ class Sketch {
     const model::Parts& parts = problem_.parts;
     const Limits& most = problem_.limits;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) AddGroup(g);
-    if (IsPumped(configuration_)) {
+    if (IsPumped(configuration())) {
       Add(PumpsOf(problem_), most.compressors, Pieces());
-      if (KeepsReservoir(configuration_)) AddReservoirs();
+      if (KeepsReservoir(configuration())) AddReservoirs();
     } else if (outline_.layout.own_regulators) {
       for (std::size_t g = 0; g < problem_.groups.size(); ++g) Add(parts.regulators, 1, Pieces());
     } else {
-      const bool none = MayLack(configuration_, Family::kRegulator);
+      const bool none = MayLack(configuration(), Family::kRegulator);
       Add(parts.regulators, 1, Pieces(), none ? 1 : 0, none ? 0.0 : kUnlimited, true);
     }
-    if (configuration_ == Configuration::kCylinder) AddCylinders();
-    if (configuration_ == Configuration::kCo2) AddCo2();
-    if (configuration_ == Configuration::kTank) AddTanks();
-    if (configuration_ != Configuration::kMains) AddBatteries();
+    if (configuration() == Configuration::kCylinder) AddCylinders();
+    if (configuration() == Configuration::kCo2) AddCo2();
+    if (configuration() == Configuration::kTank) AddTanks();
+    if (configuration() != Configuration::kMains) AddBatteries();
     outline_.bound *= kRounding;
     return outline_;
   }
 
  private:
+  Configuration configuration() const { return outline_.layout.configuration; }
   double Share(const Amounts& amounts) const { return ObjectiveOf(problem_.objective, amounts); }
 
   struct PiecesShare {
@@ -111,7 +111,7 @@ class Sketch {
              : kUnlimited);
   }
 
-  double GasAt(double pressure_pa) const { return GasLeft(problem_, configuration_, pressure_pa); }
+  double GasAt(double pressure_pa) const { return GasLeft(problem_, configuration(), pressure_pa); }
 
   // Of bottles that hold so much gas and give it down to ambient pressure.
   double BottleShare(const model::PartBasics& basics, int quantity, double gas_kg, double gas_m3,
@@ -163,7 +163,6 @@ class Sketch {
   }
 
   const Problem& problem_;
-  Configuration configuration_;
   Outline outline_;
   double coils_j_ = 0.0, air_m3_ = 0.0;  // of the mission, at least
 };

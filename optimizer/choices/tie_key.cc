@@ -35,9 +35,8 @@ Amounts ChoiceAmounts(const Problem& problem, const Design& design, const Choice
   if (row.family == Family::kTubing)
     amounts += LineJointShare(problem, row.group, own_regulators);
   else if (row.group < 0)
-    amounts += JointAmounts(
-        problem, JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
-  if (own_regulators && row.group < 0) amounts += OwnRegulatorJoint(problem, row.family, part);
+    amounts +=
+        SourceJoint(problem, row.family, part, static_cast<int>(row.quantity), own_regulators);
   if (row.family == Family::kRegulator && row.group >= 0)
     amounts += OwnRegulatorJointAtMains(problem, design.configuration, row.group);
   return amounts;

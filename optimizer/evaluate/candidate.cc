@@ -42,6 +42,11 @@ constexpr double kRoom = 1.0 + 1e-9;
 
 }  // namespace
 
+bool AllHold(const Candidate& candidate) {
+  return std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                     [](const Line* line) { return line->holds; });
+}
+
 std::vector<const model::Regulator*> RegulatorsOf(const Problem& problem,
                                                   const Candidate& candidate) {
   std::vector<const model::Regulator*> regulators;
@@ -86,9 +91,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   }
   window = WindowOfRegulator(problem, candidate.regulator, window);
   if (IsOpenTank(candidate) && candidate.bottle.index != kNone) {
-    const bool hold = std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                                  [](const Line* line) { return line->holds; });
-    if (!hold) return {kUnlimited, 0.0};
+    if (!AllHold(candidate)) return {kUnlimited, 0.0};
     window.low_pa = std::max(window.low_pa, LeastOpenFillPa(problem, candidate));
     window.high_pa = std::min(window.high_pa, TankFillMaxPa(problem, candidate));
   }

@@ -65,6 +65,9 @@ using OperatingPoint = OperatingPointOf<double>;
 
 enum class LeafStatus { kFeasible, kInfeasible, kUndecided };
 
+// Whether all valves can hold.
+bool AllHold(const Candidate& candidate);
+
 // The regulator, pressure at it, and its inlet of candidates with a regulator for all or with one
 // for each group.
 inline bool HasOwnRegulators(const Candidate& candidate) {

@@ -44,9 +44,12 @@ Amounts LineJointShare(const Problem& problem, int group, bool own_regulators) {
           share * all.mass_slack_kg, share * all.volume_slack_m3};
 }
 
-Amounts OwnRegulatorJoint(const Problem& problem, Family family, int part) {
-  const bool source = SpecOf(family).kind_role == KindRole::kSource;
-  return source ? JointAmounts(problem, JointOfOwnRegulators(problem, family, part)) : Amounts{};
+Amounts SourceJoint(const Problem& problem, Family family, int part, int quantity,
+                    bool own_regulators) {
+  Amounts joint = JointAmounts(problem, JointOfPieces(problem, family, part, quantity));
+  if (own_regulators && SpecOf(family).kind_role == KindRole::kSource)
+    joint += JointAmounts(problem, JointOfOwnRegulators(problem, family, part));
+  return joint;
 }
 
 Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group) {

@@ -41,9 +41,10 @@ Amounts operator*(double quantity, const model::PartBasics& basics);
 // number has, or behind its own regulator the joint that they have alone.
 Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint);
 Amounts LineJointShare(const Problem& problem, int group, bool own_regulators);
-// Of what joins the regulators to a source that is a part; at the mains, where none is, they count
-// with the regulator of the first group.
-Amounts OwnRegulatorJoint(const Problem& problem, Family family, int part);
+// Of what joins pieces of a source and, where groups have their own, the regulators to it. At the
+// mains, where the source is no part, these count with the regulator of the first group.
+Amounts SourceJoint(const Problem& problem, Family family, int part, int quantity,
+                    bool own_regulators);
 Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group);
 
 // Weighted objective of parts alone (energy comes on top).

@@ -25,11 +25,6 @@ double StrokesExcess(const Problem& problem, const Strokes& strokes) {
   return excess;
 }
 
-bool AllHold(const Candidate& candidate) {
-  return std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                     [](const Line* line) { return line->holds; });
-}
-
 // Whether no squad draws while another does.
 bool OneAtATime(const Problem& problem, const Candidate& candidate, const Strokes& strokes) {
   return AllHold(candidate) && EndInTurn(problem, strokes.inflate_s);

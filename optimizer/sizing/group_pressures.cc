@@ -11,25 +11,14 @@ namespace {
 
 constexpr double kTolerance = 1e-9;  // relative, of a pressure
 
-// How much the strokes of a group are too slow, relative; `failed`: that is not known.
-double ExcessAt(const Problem& problem, const Candidate& candidate, int g, double group_pa,
-                bool& failed) {
-  OperatingPoint point{group_pa};
-  point.group_pa.assign(problem.groups.size(), group_pa);
-  Strokes strokes = ToBeKept(problem);
-  if (!StrokesOfGroup(problem, candidate, point, g, strokes)) {
-    failed = true;
-    return 0.0;
-  }
-  return std::max(strokes.inflate_s[g] / InflateWindow(problem, g) - 1.0,
-                  strokes.rise_s[g] / problem.groups[g].rise_time_max_s - 1.0);
-}
-
 LeafStatus Need(const Problem& problem, const Candidate& candidate, int g, Window& window) {
   if (window.empty()) return LeafStatus::kInfeasible;
   bool failed = false;
   const auto excess = [&](double pa) {
-    return failed ? 0.0 : ExcessAt(problem, candidate, g, pa, failed);
+    const std::optional<double> slow =
+        failed ? std::nullopt : GroupExcess(problem, candidate, g, pa);
+    failed = !slow;
+    return slow.value_or(0.0);
   };
   const double high = excess(window.high_pa);
   if (!failed && high > 0.0) return LeafStatus::kInfeasible;
@@ -47,6 +36,16 @@ OperatingPoint PointWith(std::vector<double> group_pa, double tank_m3) {
 }
 
 }  // namespace
+
+std::optional<double> GroupExcess(const Problem& problem, const Candidate& candidate, int g,
+                                  double group_pa) {
+  OperatingPoint point{group_pa};
+  point.group_pa.assign(problem.groups.size(), group_pa);
+  Strokes strokes = ToBeKept(problem);
+  if (!StrokesOfGroup(problem, candidate, point, g, strokes)) return std::nullopt;
+  return std::max(strokes.inflate_s[g] / InflateWindow(problem, g) - 1.0,
+                  strokes.rise_s[g] / problem.groups[g].rise_time_max_s - 1.0);
+}
 
 double GroupPressures::least_pa() const {
   double least_pa = 0.0;

@@ -9,11 +9,17 @@
 #ifndef PLENUM_OPTIMIZER_SIZING_GROUP_PRESSURES_H_
 #define PLENUM_OPTIMIZER_SIZING_GROUP_PRESSURES_H_
 
+#include <optional>
 #include <vector>
 
 #include "optimizer/evaluate/candidate.h"
 
 namespace plenum::optimizer {
+
+// Share by which the strokes of a group behind its own regulator are too slow at a pressure there;
+// at most 0: they are in time. None where the simulator failed.
+std::optional<double> GroupExcess(const Problem& problem, const Candidate& candidate, int group,
+                                  double group_pa);
 
 // Per group from the least pressure at which its strokes are in time, within 1e-9 of it, to the
 // highest that its parts stand. kInfeasible: a group has none;

@@ -115,10 +115,8 @@ bool SetOptions(const Problem& problem, const Design& design, Candidate& candida
     }
     option.amounts = choice->quantity * BasicsOf(problem.parts, spec.family, option.index);
     option.amounts.mass_kg += choice->quantity * ChargeKg(problem, spec.family, option.index);
-    option.amounts +=
-        JointAmounts(problem, JointOfPieces(problem, spec.family, option.index, option.quantity));
-    if (HasOwnRegulators(candidate))
-      option.amounts += OwnRegulatorJoint(problem, spec.family, option.index);
+    option.amounts += SourceJoint(problem, spec.family, option.index, option.quantity,
+                                  HasOwnRegulators(candidate));
     option.objective = ObjectiveOf(problem.objective, option.amounts);
   }
   return true;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/root.h"
@@ -15,18 +16,12 @@ namespace {
 constexpr double kBalanceTolerance = 1e-4;
 constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 
-// Whether a tank behind whose regulators more pressure needs no more air, up to their inlets'.
-bool HoldAll(const Candidate& candidate) {
-  return std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                     [](const Line* line) { return line->holds; });
-}
-
 // The highest that the parts stand; behind a tank's regulator no more than its inlet asks anyhow,
 // so that the tank needs no more air.
 double HighestFree(const Problem& problem, const Candidate& candidate) {
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   if (candidate.configuration != Configuration::kTank) return high_pa;
-  if (IsOpenTank(candidate) || !HoldAll(candidate)) return 0.0;
+  if (IsOpenTank(candidate) || !AllHold(candidate)) return 0.0;
   return std::min(high_pa, InletMinPa(problem, candidate));
 }
 
@@ -87,17 +82,12 @@ class Freedom {
 double Balanced(const Problem& problem, const Candidate& candidate, const Window& window, int g,
                 double free_pa) {
   const ActuatorGroup& group = problem.groups[g];
+  const double ambient_pa = problem.ambient.pressure_pa;
   const auto excess = [&](double pa) {
-    OperatingPoint point{pa};
-    point.group_pa.assign(problem.groups.size(), pa);
-    Strokes strokes = ToBeKept(problem);
-    if (!StrokesOfGroup(problem, candidate, point, g, strokes)) return 0.0;
-    const double fast = 1.0 - std::max(strokes.rise_s[g] / group.rise_time_max_s,
-                                       strokes.inflate_s[g] / InflateWindow(problem, g));
-    const double ambient_pa = problem.ambient.pressure_pa;
-    const double low = 1.0 - (PeakOf(problem, candidate, g, pa) - ambient_pa) /
-                                 (group.pressure_max_pa - ambient_pa);
-    return low - fast;
+    const std::optional<double> slow = GroupExcess(problem, candidate, g, pa);
+    if (!slow) return 0.0;
+    return 1.0 + *slow -
+           (PeakOf(problem, candidate, g, pa) - ambient_pa) / (group.pressure_max_pa - ambient_pa);
   };
   return SmallestFeasible(excess, window.low_pa, std::min(window.high_pa, free_pa),
                           kBalanceTolerance);
@@ -111,7 +101,7 @@ OperatingPoint SettleGroups(const Problem& problem, const Candidate& candidate, 
   const double free_pa = std::max(pressures.least_pa(), InletMinPa(problem, candidate));
   double most_pa = pressures.most_pa();
   if (candidate.configuration == Configuration::kTank)
-    most_pa = HoldAll(candidate) ? free_pa : pressures.least_pa();
+    most_pa = AllHold(candidate) ? free_pa : pressures.least_pa();
   std::vector<Window> windows = pressures.windows;
   for (int g = 0; g < static_cast<int>(windows.size()); ++g) {
     auto& [low_pa, high_pa] = windows[g];

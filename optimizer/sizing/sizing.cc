@@ -34,9 +34,7 @@ bool OneAtATime(const Problem& problem, const Candidate& candidate, const Evalua
   std::vector<double> inflate_s;
   inflate_s.reserve(evaluation.groups.size());
   for (const GroupPerformance& group : evaluation.groups) inflate_s.push_back(group.inflate_time_s);
-  return EndInTurn(problem, inflate_s) &&
-         std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                     [](const Line* line) { return line->holds; });
+  return EndInTurn(problem, inflate_s) && AllHold(candidate);
 }
 
 SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {

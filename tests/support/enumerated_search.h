@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "optimizer/search/tree_search.h"
 #include "tests/support/brute_force.h"
@@ -30,6 +31,16 @@ inline void ExpectVerified(const optimizer::Problem& problem, const optimizer::A
   for (const verify::Check& check :
        verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}}).checks)
     EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
+}
+
+// No looser problem has a worse best design than `answer`, which has one.
+inline void ExpectNeverWorse(const optimizer::Answer& answer,
+                             const std::vector<optimizer::Problem>& looser) {
+  for (const optimizer::Problem& loose : looser) {
+    const optimizer::Answer better = optimizer::SearchTrees(loose, Within(60.0));
+    ASSERT_FALSE(better.designs.empty());
+    EXPECT_LE(better.designs[0].objective, answer.designs[0].objective * (1.0 + 1e-6));
+  }
 }
 
 // Searches, expects the list that enumeration gives and that `verify` accepts it, and hands each

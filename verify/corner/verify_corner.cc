@@ -113,10 +113,6 @@ int Corners::RegulatorSlot(int group) const {
   return SlotOf(plan_, Family::kRegulator, plan_.own_regulators ? group : -1);
 }
 
-BestNumbers Corners::RegulatorOf(const Ranges& ranges, int group) const {
-  return {problem_, plan_, ranges, RegulatorSlot(group)};
-}
-
 bool Corners::CannotMate(const Ranges& ranges) {
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
     if (!strokes_.Line(ranges, g).mates) return true;
@@ -139,9 +135,9 @@ bool Corners::TooMuch(const Ranges& ranges) {
 // Of the best regulator and its lines.
 Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, int group) {
   const int slot = RegulatorSlot(group);
-  const BestNumbers regulator = RegulatorOf(ranges, group);
   const auto is_none = [](const ProofItem& item) { return item.part < 0; };
-  SourceBounds source;
+  SourceBounds source{.regulator = {problem_, plan_, ranges, slot}};
+  const BestNumbers& regulator = source.regulator;
   source.low_pa = problem_.ambient.pressure_pa;
   source.high_pa = problem_.source_pressure_max_pa;
   source.some_open = Any(plan_, ranges, slot, is_none);
@@ -165,13 +161,12 @@ Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, int group) {
   return source;
 }
 
-Corners::Inlets Corners::InletsOf(const Ranges& ranges) {
+Corners::Inlets Corners::InletsOf(const std::vector<SourceBounds>& sources) {
   Inlets inlets;
-  for (int g = 0; g < RegulatorCount(problem_, plan_); ++g) {
-    const SourceBounds source = SourceOf(ranges, g);
+  for (const SourceBounds& source : sources) {
     inlets.low_pa = std::max(inlets.low_pa, source.low_pa);
     if (source.some_open) continue;
-    const BestNumbers regulator = RegulatorOf(ranges, g);
+    const BestNumbers& regulator = source.regulator;
     inlets.min_pa = std::max(inlets.min_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
     inlets.max_pa = std::min(inlets.max_pa, regulator.Number("inlet_pressure_max_kpa_gauge"));
     inlets.electrical_w += regulator.Number("electrical_power_w");
@@ -181,18 +176,21 @@ Corners::Inlets Corners::InletsOf(const Ranges& ranges) {
 
 // Each group alone on the best regulator, then the least bottle and battery that bear the needs.
 double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
-  const SourceBounds first = SourceOf(ranges, 0);
-
+  std::vector<SourceBounds> sources;
+  for (int g = 0; g < RegulatorCount(problem_, plan_); ++g) {
+    sources.push_back(SourceOf(ranges, g));
+    if (!(sources.back().low_pa <= sources.back().high_pa)) return kUnlimited;
+  }
+  const SourceBounds& first = sources.front();
   const double temperature_k = problem_.ambient.temperature_k;
   const double factor = FactorOf(problem_, plan_.configuration);
   if (AllAtOnce(problem_) && !plan_.own_regulators && !first.some_open) {
-    if (!(first.low_pa <= first.high_pa)) return kUnlimited;
     std::vector<const BestLine*> lines;
     lines.reserve(problem_.groups.size());
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
       lines.push_back(&strokes_.Line(ranges, g));
     if (TooSlowTogether(problem_,
-                        {RegulatorOf(ranges, 0).Flow("sonic_conductance_dm3_per_s_bar"), factor,
+                        {first.regulator.Flow("sonic_conductance_dm3_per_s_bar"), factor,
                          first.high_pa, first.flow_max},
                         lines))
       return kUnlimited;
@@ -201,12 +199,11 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
-    const SourceBounds source = plan_.own_regulators ? SourceOf(ranges, g) : first;
-    if (!(source.low_pa <= source.high_pa)) return kUnlimited;
+    const SourceBounds& source = plan_.own_regulators ? sources[g] : first;
     const double count = MostAtOnce(problem_, g), strokes = group.gait.strokes_per_period;
     std::vector<model::FlowElement> elements = line.fill;
     if (!source.some_open) {
-      model::FlowElement share = RegulatorOf(ranges, g).Flow("sonic_conductance_dm3_per_s_bar");
+      model::FlowElement share = source.regulator.Flow("sonic_conductance_dm3_per_s_bar");
       share.sonic_conductance_m3_per_s_pa /= count;
       elements.insert(elements.begin(), share);
     }
@@ -231,7 +228,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;
   if (plan_.configuration == Configuration::kMains) return sum;
 
-  const Inlets inlets = InletsOf(ranges);
+  const Inlets inlets = InletsOf(sources);
   const double energy_j = beyond_j + problem_.actuations * coil_j +
                           inlets.electrical_w * problem_.actuations / problem_.frequency_hz;
   if (plan_.configuration == Configuration::kTank)

@@ -42,7 +42,6 @@ class Corners {
   bool SourceMates(const Ranges& ranges, const ProofItem& pump_or_regulator) const;
   // Of all groups, or where they have their own of this one.
   int RegulatorSlot(int group) const;
-  BestNumbers RegulatorOf(const Ranges& ranges, int group) const;
   bool TooMuch(const Ranges& ranges);
   double LeastRegulated(const Ranges& ranges, double chosen);
   struct Stored {
@@ -50,16 +49,18 @@ class Corners {
     double energy_j;  // of the mission
   };
   struct SourceBounds {
+    BestNumbers regulator;
     double low_pa = 0.0, high_pa = kUnlimited, flow_max = kUnlimited;
     bool some_open = false, all_open = false;  // a tank without a regulator
   };
+  // Of the source, or behind the group's own regulator.
   SourceBounds SourceOf(const Ranges& ranges, int group);
   // Of all regulators: the highest of the pressures behind them, at least; what they ask in front
   // of them; their power.
   struct Inlets {
     double low_pa = 0.0, min_pa = 0.0, max_pa = kUnlimited, electrical_w = 0.0;
   };
-  Inlets InletsOf(const Ranges& ranges);
+  static Inlets InletsOf(const std::vector<SourceBounds>& sources);
   double LeastTank(const Ranges& ranges, const Inlets& inlets, const SourceBounds& source,
                    double air_m3);
   double LeastBattery(const Ranges& ranges, double energy_j);

@@ -272,15 +272,10 @@ class Planter {
         family, true,
         [&](int part, int quantity) {
           const double pieces = quantity;
-          return Count{pieces, pieces, JointOf(family, part, quantity)};
+          return Count{pieces, pieces,
+                       SourceJoint(problem_, family, part, quantity, plan_->own_regulators)};
         },
         rule);
-  }
-  // What joins pieces of a source, and regulators of groups to it.
-  Amounts JointOf(Family family, int part, int quantity) const {
-    Amounts joint = JointAmounts(problem_, JointOfPieces(problem_, family, part, quantity));
-    if (plan_->own_regulators) joint += OwnRegulatorJoint(problem_, family, part);
-    return joint;
   }
   // How many choices that makes, were there a price for each.
   long long ChoicesOf(Family family) const {

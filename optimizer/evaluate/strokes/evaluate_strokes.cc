@@ -332,8 +332,7 @@ bool StrokesOfGroup(const Problem& problem, const Candidate& candidate, const Op
 }
 
 bool WorstIsEnclosed(const Problem& problem, const Candidate& candidate) {
-  return problem.guarantee && std::any_of(candidate.lines.begin(), candidate.lines.end(),
-                                          [](const Line* line) { return !line->holds; });
+  return problem.guarantee && !AllHold(candidate);
 }
 
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,

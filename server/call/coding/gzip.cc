@@ -72,10 +72,7 @@ Deflated Stored(std::string_view text) {
 }  // namespace
 
 Deflated Deflate(std::string_view text) {
-  Deflated deflated;
-  deflated.size = text.size();
-  deflated.crc =
-      crc32_z(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(text.data()), text.size());
+  Deflated deflated{"", CrcOf(text), text.size()};
   Deflater deflater;
   do {
     const std::string_view piece = text.substr(0, kFeedBytes);

@@ -53,12 +53,13 @@ class KnownCycles {
     return entry->second;
   }
 
-  // Of a group behind its own regulator, and of all of them.
+  // Of a group behind its own regulator.
   struct OfGroup;
   OfGroup& Group(int group) { return *groups_[group]; }
-  const std::optional<Cycle>& AtGroups(const std::vector<double>& group_pressure_pa);
 
  private:
+  const std::optional<Cycle>& AtGroups(const std::vector<double>& group_pressure_pa);
+
   const Problem& problem_;
   const Assembly assembly_;
   const QuickCycles quick_;
