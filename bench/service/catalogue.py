@@ -3,6 +3,7 @@
 
 usage: bench/service/catalogue.py [PARTS] [PLENUM]     (default 100000 build/release/plenum)
 """
+import contextlib
 import http.client
 import json
 import os
@@ -64,10 +65,16 @@ def command(folder, *arguments):
                           stdout=subprocess.PIPE).stdout
 
 
-def serve(folder):
+@contextlib.contextmanager
+def serving(folder):
+    """A service and its port; it ends whatever becomes of what is asked of it."""
     process = subprocess.Popen([PLENUM, "serve", "--port", "0"], cwd=folder, stderr=subprocess.PIPE,
                                text=True)
-    return process, int(process.stderr.readline().rsplit(":", 1)[1].rstrip("/\n"))
+    try:
+        yield process, int(process.stderr.readline().rsplit(":", 1)[1].rstrip("/\n"))
+    finally:
+        process.terminate()
+        process.wait()
 
 
 def get(connection, path):
@@ -90,7 +97,6 @@ def post(port, path, body):
 def import_over_http(folder):
     """The same table into a fresh catalogue; what it took of the service, which is no child yet."""
     shutil.copy("catalog.db", folder)
-    process, port = serve(folder)
 
     def used():
         fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
@@ -100,12 +106,11 @@ def import_over_http(folder):
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
         return int(status.split("VmHWM:")[1].split()[0]) / 1024
 
-    before, base, start = used(), peak_mb(), time.monotonic()
-    post(port, "/v1/parts/import?family=valve", table(PARTS))
-    print(f"{'import over HTTP':42} {time.monotonic() - start:7.2f} s, CPU {used() - before:6.2f} s, "
-          f"{peak_mb() - base:.0f} MB above an idle service", flush=True)
-    process.terminate()
-    process.wait()
+    with serving(folder) as (process, port):
+        before, base, start = used(), peak_mb(), time.monotonic()
+        post(port, "/v1/parts/import?family=valve", table(PARTS))
+        print(f"{'import over HTTP':42} {time.monotonic() - start:7.2f} s, CPU {used() - before:6.2f} s, "
+              f"{peak_mb() - base:.0f} MB above an idle service", flush=True)
 
 
 def pages(port):
@@ -167,11 +172,9 @@ def main():
         timed("check", lambda: command(folder, "check"))
         timed("backup", lambda: command(folder, "backup", "copy.db"))
         print(f"{'catalog.db':42} {(folder / 'catalog.db').stat().st_size / 2**20:7.1f} MiB")
-        process, port = serve(folder)
-        pages(port)
-        after_writes(port)
-        process.terminate()
-        process.wait()
+        with serving(folder) as (_, port):
+            pages(port)
+            after_writes(port)
     finally:
         shutil.rmtree(folder)
 
