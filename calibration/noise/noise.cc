@@ -82,8 +82,9 @@ std::vector<double> ThirdDifferences(const Samples& samples, std::span<const Tim
 // Drops what lies beyond kTrimSigmas robust deviations (at least `floor` each).
 void Trim(std::vector<double>& values, double floor) {
   if (values.empty()) return;
-  std::vector<double> sizes;
-  for (const double value : values) sizes.push_back(std::abs(value));
+  std::vector<double> sizes(values.size());
+  std::transform(values.begin(), values.end(), sizes.begin(),
+                 [](double value) { return std::abs(value); });
   const double limit = kTrimSigmas * std::max(kMadToSigma * Median(sizes), floor);
   if (limit > 0.0) std::erase_if(values, [&](double value) { return std::abs(value) > limit; });
 }

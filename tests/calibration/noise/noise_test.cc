@@ -213,6 +213,7 @@ TEST(Noise, ReadingsThatStandAtTheEndOfTheRangeAreClipped) {
   // valve stops.
   const auto rise = [&](double end_pa) {
     std::vector<double> smooth;
+    smooth.reserve(t_s.size());
     for (const double t : t_s)
       smooth.push_back(std::round(100.0 * std::min(2e5 - 1e5 * std::exp(-5.0 * t), end_pa)) /
                        100.0);
@@ -273,12 +274,14 @@ TEST(Noise, WhatTheFloorCutsOffIsNoStaircase) {
 TEST(Noise, OverlaidSamplesGiveTheScatterOfRepeats) {
   std::vector<double> ratios;
   for (int seed = 0; seed < kSeeds / 4; ++seed) {
-    const std::vector<double> noise = WhiteNoise(seed, 12 * 7, kSigmaPa);
+    constexpr std::size_t kInstants = 12, kRepeats = 7;
+    const std::vector<double> noise = WhiteNoise(seed, kInstants * kRepeats, kSigmaPa);
     std::vector<double> t_s, y;
     for (std::size_t i = 0; i < noise.size(); ++i) {
-      const double instant = 0.05 * static_cast<double>(i / 7);
-      t_s.push_back(instant + 1e-7 * static_cast<double>(i % 7));
-      y.push_back(4e5 * (1.0 - std::exp(-instant / 0.1)) + noise[i]);  // 12 points on a curve
+      const std::size_t place = i / kRepeats;
+      const double instant = 0.05 * static_cast<double>(place);
+      t_s.push_back(instant + 1e-7 * static_cast<double>(i % kRepeats));
+      y.push_back(4e5 * (1.0 - std::exp(-instant / 0.1)) + noise[i]);
     }
     const Noise found = EstimateNoise({t_s, y, {}, {{0.0, t_s.back()}}});
     EXPECT_EQ(found.source, NoiseSource::kRepeats);
