@@ -205,6 +205,7 @@ model::FlowElement ElementOf(const catalog::Part& row, const char* conductance, 
 
 model::ValveKind ValveKindFromFunction(std::string_view function) {
   if (function == "2/2 pair") return model::ValveKind::kPair;
+  if (function == "2/2") return model::ValveKind::kVent;
   if (function == "proportional") return model::ValveKind::kProportional;
   return model::ValveKind::kThreeWay;
 }

@@ -33,7 +33,7 @@ bool StandsVacuum(const catalog::Part& row);
 // other sources, all pressures mirrored (model/physics/chamber.h).
 model::Parts ToVacuumParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient);
 
-// The functions of a valve in the catalogue: "3/2", "2/2 pair", "proportional".
+// The functions of a valve in the catalogue: "3/2", "2/2 pair", "proportional", "2/2".
 model::ValveKind ValveKindFromFunction(std::string_view function);
 
 // C and b of a row, in SI; the names of the two fields differ between families.

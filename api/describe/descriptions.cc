@@ -88,7 +88,9 @@ Json EvacuatedRequirements() {
                      "operating_pressure_kpa_gauge": -60, "pressure_kpa_gauge_min": -65,
                      "tube_length_m": 1 } ],
     "duty": { "frequency_hz": 0.1, "actuations": 10 },
-    "supply": { "vacuum": { "configurations": ["pump"], "vacuum_kpa_gauge_min": -80 } },
+    "supply": { "vacuum": { "configurations": ["pump", "mains"], "vacuum_kpa_gauge_min": -80,
+                            "mains": { "pressure_kpa_gauge": -85,
+                                       "flow_l_per_min_anr_max": 60 } } },
     "require": { "vacuum_pump": ["x"] } })");
 }
 

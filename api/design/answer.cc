@@ -4,6 +4,7 @@
 #include "api/design/designs.h"
 #include "api/design/front.h"
 #include "api/design/guaranteed.h"
+#include "api/design/hints.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/read/selection.h"
 #include "api/design/revised_ranking.h"
@@ -67,7 +68,9 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
   if (!request.pareto.empty()) return AnswerFront(request, options, parts);
   if (request.model) return AnswerRevised(request, options, parts);
   if (request.guarantee) return AnswerGuaranteed(request, options, parts);
-  return AnswerList(request, options, parts).document;
+  ListAnswer list = AnswerList(request, options, parts);
+  if (!request.robust) AddHints(request, list.answer, options, parts, list.document);
+  return std::move(list.document);
 }
 
 }  // namespace plenum::api

@@ -6,6 +6,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/units.h"
 #include "optimizer/problem/family_specs.h"
@@ -166,7 +167,7 @@ Json RenderKind(const optimizer::Design& design, const optimizer::Problem& probl
   std::map<optimizer::KindRole, std::set<std::string>> names;
   for (const optimizer::Choice& choice : design.parts) {
     const int part = optimizer::FindPart(problem.parts, choice.family, choice.id);
-    if (part < 0) continue;
+    if (part < 0 || IsOutside(choice, problem)) continue;
     const model::PartBasics& basics = optimizer::BasicsOf(problem.parts, choice.family, part);
     names[optimizer::SpecOf(choice.family).kind_role].insert(basics.series.empty() ? basics.id
                                                                                    : basics.series);
@@ -186,7 +187,7 @@ Json RenderVariant(const optimizer::Variant& variant, const optimizer::Design& b
     const bool same = std::any_of(
         best.parts.begin(), best.parts.end(),
         [&](const optimizer::Choice& other) { return optimizer::SameRow(other, choice); });
-    if (same || IsOutsidePower(choice, problem)) continue;
+    if (same || IsOutside(choice, problem)) continue;
     differ_in.insert(optimizer::Name(choice.family));
     parts.push_back(RenderChoice(choice, problem, rows));
   }
@@ -213,7 +214,9 @@ Rows RowsOf(const std::vector<catalog::Part>& parts) {
   return rows;
 }
 
-Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
+Quality QualityOf(const optimizer::Design& design, const optimizer::Problem& problem,
+                  const Rows& rows) {
+  const bool kept_by_pumps = problem.pump_feed == optimizer::PumpFeed::kPerActuator;
   Quality quality;
   for (const optimizer::Choice& choice : design.parts) {
     if (IsCustom(choice)) {
@@ -221,7 +224,10 @@ Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
       quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
     } else if (const auto row = rows.find(choice.id); row != rows.end()) {
       AddEstimates(*row->second, choice.quantity, quality);
-      if (optimizer::IsVacuum(design.configuration)) AddAssumedOfVacuum(*row->second, quality);
+      if (optimizer::Evacuated(problem)) AddAssumedOfVacuum(*row->second, quality);
+      if (choice.family == optimizer::PumpFamily(design.configuration) && kept_by_pumps &&
+          !row->second->texts.contains("check_valve"))
+        quality.estimated.insert(row->second->family + ".check_valve");
       if (choice.family == optimizer::Family::kValve &&
           !row->second->numbers.contains("response_time_ms"))
         quality.estimated.insert("valve.response_time_ms");
@@ -244,7 +250,7 @@ Json RenderClaim(const optimizer::Design& design, int rank, const optimizer::Pro
                  const Rows& rows) {
   Json parts = Json::array();
   for (const optimizer::Choice& choice : design.parts)
-    if (!IsOutsidePower(choice, problem)) parts.push_back(RenderChoice(choice, problem, rows));
+    if (!IsOutside(choice, problem)) parts.push_back(RenderChoice(choice, problem, rows));
   Json json = {{"rank", rank},
                {"configuration", optimizer::Name(design.configuration)},
                {"objective", Number(design.objective)},

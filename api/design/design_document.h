@@ -29,7 +29,8 @@ struct Quality {
   std::set<std::string> not_orderable;  // ids of classes of parts and the like
 };
 
-Quality QualityOf(const optimizer::Design& design, const Rows& rows);
+Quality QualityOf(const optimizer::Design& design, const optimizer::Problem& problem,
+                  const Rows& rows);
 
 // Settings, totals, performance and margins of a design.
 Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem);

@@ -7,6 +7,7 @@
 #include "api/design/design_document.h"
 #include "api/design/proof_record.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/own_pumps.h"
 #include "api/json/json.h"
 #include "api/json/version.h"
 #include "optimizer/evaluate/line.h"
@@ -95,7 +96,7 @@ Json RenderBest(const optimizer::BestDesign& best, const optimizer::Answer& answ
   row["objective"] = Number(best.design->objective);
   if (first > 0.0) row["relative_distance"] = Number(best.design->objective / first - 1.0);
   row["design"] =
-      RenderDesign(*best.design, best.rank, QualityOf(*best.design, rows), problem, rows);
+      RenderDesign(*best.design, best.rank, QualityOf(*best.design, problem, rows), problem, rows);
   if (best.rank == 0) row["design"]["rank"] = nullptr;
   return row;
 }
@@ -130,7 +131,7 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts) {
       if (part.family != spec.name || optimizer::CatalogueFamily(spec.family) != spec.family ||
-          !MayUse(problem, spec))
+          !MayUse(problem, spec) || !SuitsFeed(problem, part))
         continue;
       const auto required = problem.require.find(spec.family);
       if (problem.exclude.contains(part.id))
@@ -159,7 +160,7 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   Json best_on_measured_flow = nullptr;
   for (std::size_t i = 0; i < answer.designs.size(); ++i) {
     const int rank = static_cast<int>(i) + 1;
-    const Quality quality = QualityOf(answer.designs[i], rows);
+    const Quality quality = QualityOf(answer.designs[i], request.problem, rows);
     if (!quality.flow_estimated && best_on_measured_flow.is_null()) best_on_measured_flow = rank;
     designs.push_back(RenderDesign(answer.designs[i], rank, quality, request.problem, rows));
   }

@@ -61,8 +61,15 @@ class LineBuilder {
       const auto element = ElementOf(*part, "sonic_conductance_dm3_per_s_bar", "critical_ratio");
       Add(element, element);
     } else if (part->family == "valve") {
-      Add(ElementOf(*part, "sonic_conductance_fill_dm3_per_s_bar", "critical_ratio_fill"),
-          ElementOf(*part, "sonic_conductance_exhaust_dm3_per_s_bar", "critical_ratio_exhaust"));
+      const auto exhaust =
+          ElementOf(*part, "sonic_conductance_exhaust_dm3_per_s_bar", "critical_ratio_exhaust");
+      const bool only_vents = ValveKindFromFunction(part->texts.at("function").value) ==
+                              model::ValveKind::kVent;  // the source feeds the line past it
+      if (only_vents)
+        line_.exhaust.insert(line_.exhaust.begin(), exhaust);
+      else
+        Add(ElementOf(*part, "sonic_conductance_fill_dm3_per_s_bar", "critical_ratio_fill"),
+            exhaust);
     } else {
       reader.Fail("part", Quoted(id) + " is a " + part->family +
                               "; a line takes parts of tubing, fitting or valve");
@@ -117,11 +124,11 @@ model::ReservoirSource ReadTank(Reader& source, const Surroundings& around) {
 model::RegulatedSource ReadRegulated(Reader& source, const Surroundings& around) {
   model::RegulatedSource regulated;
   regulated.pressure_pa = around.Pa(source.Number("source_pressure_kpa_gauge", around.Pressures()));
-  if (around.side == Side::kVacuum) return regulated;
-  if (auto regulator = source.OptionalObject("regulator")) {
-    regulated.regulator = ReadPair(*regulator);
-    regulator->Finish();
-  }
+  if (around.side == Side::kPressure)
+    if (auto regulator = source.OptionalObject("regulator")) {
+      regulated.regulator = ReadPair(*regulator);
+      regulator->Finish();
+    }
   if (const auto flow = source.OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6)))
     regulated.flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
   return regulated;

@@ -169,8 +169,9 @@ def main():
         return shares(all_rows)
     before = copy.deepcopy(all_rows)
     made = laws.all_laws(all_rows)
-    fill_valves(all_rows["valve"], made)
-    spreads = fill_spreads(all_rows["valve"])
+    valves = [row for row in all_rows["valve"] if row["function"] != "2/2"]  # halves of pairs
+    fill_valves(valves, made)
+    spreads = fill_spreads(valves)
     fill_fittings(all_rows["fitting"], made)
     fill_packs(all_rows["battery"], made)
     pumped = fill_pumps(all_rows["compressor"] + all_rows["vacuum_pump"], made)

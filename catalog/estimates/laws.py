@@ -141,7 +141,8 @@ def steel_tank_x(row):
 
 
 def all_laws(tables):
-    valves, packs = tables["valve"], tables["battery"]
+    valves = [r for r in tables["valve"] if r["function"] != "2/2"]  # halves of pairs
+    packs = tables["battery"]
     power, pump_mass, pump_body = pump_laws(tables["compressor"] + tables["vacuum_pump"])
     made = [
         power, pump_mass, pump_body,

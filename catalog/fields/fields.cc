@@ -28,6 +28,9 @@ NumberField Ratio(std::string_view name) {
   return {name, 0, 0.95, true, "critical pressure ratio b"};
 }
 
+const TextField kCheckValve{
+    "check_valve", false, {"yes", "no"}, "whether it keeps air from flowing back while it is off"};
+
 // Vacuum pumps are searched; ejectors and what follows are kept, found, imported and exported, and
 // wait for it.
 std::vector<Family> VacuumSources() {
@@ -42,7 +45,7 @@ std::vector<Family> VacuumSources() {
         kBodyIfKnown,
         kPrice,
         {"pressure_max_kpa_gauge", 1, 5e4, false, "highest pressure where it also compresses"}},
-       {{"type", false, {}, "principle"}},
+       {{"type", false, {}, "principle"}, kCheckValve},
        CurveKind::kSuction},
       {"ejector",
        {{"suction_flow_l_per_min_anr", 1e-3, 1e5, false, "suction flow without vacuum"},
@@ -127,7 +130,7 @@ std::vector<Family> FamiliesOfTheSearch() {
         kBody,
         kPrice,
         kPressureMax},
-       {{"function", true, {"3/2", "2/2 pair", "proportional"}, "how one channel is served"},
+       {{"function", true, {"3/2", "2/2 pair", "proportional", "2/2"}, "how one channel is served"},
         {"port", true, {}, "thread of the port to the actuator"},
         {"vacuum_rated", false, {"yes", "no"}, "whether it works with a vacuum at its inlet"}}},
       {"compressor",
@@ -140,7 +143,7 @@ std::vector<Family> FamiliesOfTheSearch() {
         kBody,
         kPrice,
         kPressureMax},
-       {{"type", false, {}, "principle"}},
+       {{"type", false, {}, "principle"}, kCheckValve},
        CurveKind::kPressure},
       {"cylinder",
        {{"water_volume_l", 0.01, 100, true, "inner volume"},

@@ -64,8 +64,10 @@ def example_answers(program):
     program.text("diagnose", program.file("recording.json", program.example("simulated_recording")), "--save", "wall")
     revised = program.example("gripper") | {"model": "wall", "ranking": {"count": 3, "time_limit_s": 5}}
     judged["ranking"] = {"proof": True}
+    bottled = program.example("tank_arm")
+    bottled["supply"]["configurations"] = ["cylinder"]
     documents = [priced, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
-                 program.example("tank_arm"),
+                 program.example("tank_arm"), bottled,
                  program.example("orthosis")]
     return [program.answer("design", one) for one in documents]
 

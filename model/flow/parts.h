@@ -50,6 +50,7 @@ enum class ValveKind {
   kThreeWay,      // 3/2: fill or vent; energised while filling and holding
   kPair,          // two 2/2, one for filling and one for venting; each energised while open
   kProportional,  // 3/3 or 5/3 with closed centre; energised while filling and while venting
+  kVent,          // one 2/2 that vents an actuator which is fed past it; energised while it vents
 };
 inline bool Holds(ValveKind kind) { return kind != ValveKind::kThreeWay; }
 

@@ -12,6 +12,7 @@
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
+#include "optimizer/problem/pump_feed.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
@@ -168,7 +169,8 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     bound += bottle;
   }
   int unknown = -1;
-  const double pump_current_a = direct ? PumpOf(box).rates.CurrentAt(box.window.low_pa) : 0.0;
+  const double pump_current_a =
+      direct ? FeedsAtOnce(problem_) * PumpOf(box).rates.CurrentAt(box.window.low_pa) : 0.0;
   const BatteryLoad load{box.energy_j / kRounding, pump_current_a, box.coil_power_w,
                          LeastBesidesBattery(box)};
   const double battery = LeastBattery(box, load, unknown);

@@ -7,6 +7,7 @@
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -25,7 +26,7 @@ class Sketch {
     const Limits& most = problem_.limits;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) AddGroup(g);
     if (IsPumped(configuration())) {
-      Add(PumpsOf(problem_), most.compressors, Pieces());
+      Add(PumpsOf(problem_), most.compressors, Pieces(FeedsOf(problem_)));
       if (KeepsReservoir(configuration())) AddReservoirs();
     } else if (outline_.layout.own_regulators) {
       for (std::size_t g = 0; g < problem_.groups.size(); ++g) Add(parts.regulators, 1, Pieces());

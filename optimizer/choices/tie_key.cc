@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -36,7 +37,8 @@ Amounts ChoiceAmounts(const Problem& problem, const Design& design, const Choice
     amounts += LineJointShare(problem, row.group, own_regulators);
   else if (row.group < 0)
     amounts +=
-        SourceJoint(problem, row.family, part, static_cast<int>(row.quantity), own_regulators);
+        SourceJoint(problem, row.family, part,
+                    static_cast<int>(row.quantity) / FeedsOf(problem, row.family), own_regulators);
   if (row.family == Family::kRegulator && row.group >= 0)
     amounts += OwnRegulatorJointAtMains(problem, design.configuration, row.group);
   return amounts;

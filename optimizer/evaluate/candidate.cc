@@ -5,6 +5,7 @@
 
 #include "model/flow/scalar.h"
 #include "model/physics/storage.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -96,9 +97,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     window.high_pa = std::min(window.high_pa, TankFillMaxPa(problem, candidate));
   }
   if (IsDirect(candidate.configuration)) {
-    const Meeting meeting = MeetingOf(problem);
-    const bool at_once = meeting == Meeting::kTogether || meeting == Meeting::kMixed;
-    if (at_once || !SuitDirectPumps(problem, candidate)) return {kUnlimited, 0.0};
+    if (FeedsMeet(problem) || !SuitDirectPumps(problem, candidate)) return {kUnlimited, 0.0};
   }
   if (candidate.configuration == Configuration::kMains)
     window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
@@ -193,14 +192,6 @@ template Amounts TotalAmounts(const Problem&, const Candidate&, const OperatingP
 template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&,
                                              const OperatingPointOf<model::Dual>&);
 
-std::vector<double> DirectTurns(const Problem& problem) {
-  const std::vector<Squad> squads = SquadsOf(problem);
-  std::vector<double> turns_s = TurnSeconds(problem, squads);
-  for (std::size_t s = 0; s < squads.size(); ++s)
-    turns_s[s] = std::min(turns_s[s], InflateWindow(problem, squads[s].group));
-  return turns_s;
-}
-
 model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int g,
                                int count) {
   const Line& line = *candidate.lines[g];
@@ -220,8 +211,8 @@ model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidat
 
 OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate) {
   OperatingPoint point{problem.ambient.pressure_pa};
-  for (const auto& [group, count, phase] : SquadsOf(problem)) {
-    const model::PumpStroke stroke = DirectStroke(problem, candidate, group, count);
+  for (const FedSquad& fed : FedSquadsOf(problem)) {
+    const model::PumpStroke stroke = DirectStroke(problem, candidate, fed.squad.group, fed.count);
     point.source_pa = std::max(point.source_pa, stroke.reached ? stroke.node_end_pa : kUnlimited);
   }
   return point;

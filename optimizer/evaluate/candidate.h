@@ -120,16 +120,14 @@ inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
 
 // Pumps without a reservoir ("direct").
 //
-// All pumps together fill one group after another, each from its command until its valve closes at
-// the operating pressure, and are off else (model/strokes/pump_stroke.h). A squad (gait.h) must be
-// full before the next one's turn: squads that would fill at once have no such design. Between two
-// strokes only the valve keeps an actuator full, so that it must hold; and since a stroke begins at
-// ambient pressure in front of it, it must switch without any at its inlet.
+// The pumps of a feed (pump_feed.h) together fill one squad after another, each from its command
+// until its valve closes at the operating pressure, and are off else (model/strokes/pump_stroke.h).
+// A squad must be full before the next one's turn: squads of one feed that would fill at once have
+// no such design. Between two strokes only the valve keeps an actuator full, so that it must hold;
+// and since a stroke begins at ambient pressure in front of it, it must switch without any at its
+// inlet.
 
-// Of each squad: it is full before this time after its command, its window or its turn; 0 where
-// two begin at once.
-std::vector<double> DirectTurns(const Problem& problem);
-// The stroke of a squad of so many actuators of the group.
+// The stroke of so many actuators of the group on one feed.
 model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int group,
                                int count);
 // The pressure at which all parts of the lines must stand it; +∞ where some group is never full.

@@ -8,6 +8,7 @@
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -57,11 +58,9 @@ T StrokeFrequency(const Problem& problem, const EvaluationOf<T>& evaluation) {
 template <class T>
 T TurnFrequency(const Problem& problem, const EvaluationOf<T>& evaluation) {
   T highest = T(kUnlimited);
-  const std::vector<Squad> squads = SquadsOf(problem);
-  const std::vector<double> turns_s = DirectTurns(problem);
-  for (std::size_t s = 0; s < squads.size(); ++s)
-    highest = std::min(highest, T(turns_s[s] * problem.frequency_hz /
-                                  evaluation.groups[squads[s].group].inflate_time_s));
+  for (const FedSquad& fed : FedSquadsOf(problem))
+    highest = std::min(highest, T(fed.turn_s * problem.frequency_hz /
+                                  evaluation.groups[fed.squad.group].inflate_time_s));
   return highest;
 }
 
@@ -122,8 +121,9 @@ void AddPump(const Problem& problem, const Candidate& candidate, const Operating
     evaluation.air_total_m3 += point.reservoir_rising_m3 * (point.source_pa - ambient_pa) *
                                model::StandardVolume(1.0, problem.ambient.temperature_k);
   }
-  evaluation.battery_current_a += static_cast<double>(candidate.compressor.quantity) *
-                                  LargestCurrent(curve, ambient_pa, point.source_pa);
+  const int pumps = candidate.compressor.quantity * FeedsAtOnce(problem);
+  evaluation.battery_current_a +=
+      static_cast<double>(pumps) * LargestCurrent(curve, ambient_pa, point.source_pa);
 }
 
 template <class T>

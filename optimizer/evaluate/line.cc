@@ -5,6 +5,7 @@
 
 #include "model/flow/scalar.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 
@@ -37,7 +38,9 @@ Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint) 
 }
 
 Amounts LineJointShare(const Problem& problem, int group, bool own_regulators) {
-  if (own_regulators) return JointAmounts(problem, JointOfLines(problem, group));
+  if (problem.pump_feed == PumpFeed::kPerActuator) return {};  // in SourceJoint
+  if (own_regulators || problem.pump_feed == PumpFeed::kPerGroup)
+    return JointAmounts(problem, JointOfLines(problem, group));
   const Amounts all = JointAmounts(problem, JointOfLines(problem));
   const double share = static_cast<double>(problem.groups[group].count) / LineCount(problem);
   return {share * all.mass_kg, share * all.volume_m3, share * all.cost_eur,
@@ -46,6 +49,12 @@ Amounts LineJointShare(const Problem& problem, int group, bool own_regulators) {
 
 Amounts SourceJoint(const Problem& problem, Family family, int part, int quantity,
                     bool own_regulators) {
+  if (problem.pump_feed != PumpFeed::kShared && SpecOf(family).kind_role == KindRole::kSource) {
+    Amounts joints;
+    for (const Joint& joint : JointsOfFeeds(problem, family, part, quantity))
+      joints += JointAmounts(problem, joint);
+    return joints;
+  }
   Amounts joint = JointAmounts(problem, JointOfPieces(problem, family, part, quantity));
   if (own_regulators && SpecOf(family).kind_role == KindRole::kSource)
     joint += JointAmounts(problem, JointOfOwnRegulators(problem, family, part));

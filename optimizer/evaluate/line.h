@@ -11,7 +11,7 @@
 #include "model/flow/series.h"
 #include "model/physics/chamber.h"
 #include "optimizer/evaluate/stroke_panels.h"
-#include "optimizer/problem/cost.h"
+#include "optimizer/problem/amount.h"
 #include "optimizer/problem/gait.h"
 #include "optimizer/problem/joints.h"
 #include "optimizer/problem/problem.h"
@@ -38,11 +38,12 @@ using Amounts = AmountsOf<double>;
 Amounts operator*(double quantity, const model::PartBasics& basics);
 
 // Of a joint (joints.h), and of a group's lines that share of the joint of all lines that their
-// number has, or behind its own regulator the joint that they have alone.
+// number has, or behind its own regulator or pumps the joint that they have alone.
 Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint);
 Amounts LineJointShare(const Problem& problem, int group, bool own_regulators);
-// Of what joins pieces of a source and, where groups have their own, the regulators to it. At the
-// mains, where the source is no part, these count with the regulator of the first group.
+// Of what joins pieces of a source and, where groups have their own, the regulators to it; of pumps
+// of all feeds. At the mains, where the source is no part, these count with the regulator of the
+// first group.
 Amounts SourceJoint(const Problem& problem, Family family, int part, int quantity,
                     bool own_regulators);
 Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group);
@@ -120,12 +121,12 @@ double CoilSeconds(const Problem& problem, int group, const Line& line);  // of 
 double LeastCoilSeconds(const Problem& problem);                          // of any group
 
 // Coil energy of one cycle of the whole group, J: of a pair or a proportional valve also while it
-// inflates.
+// inflates, unless it only vents.
 template <class T>
 T CoilEnergyPerCycle(const Problem& problem, int group, const Line& line, const T& inflate_time_s) {
   const double strokes = problem.groups[group].gait.strokes_per_period;
-  const T on_s =
-      CoilSeconds(problem, group, line) + (line.holds ? strokes * inflate_time_s : T(0.0));
+  const bool fills = line.holds && !problem.groups[group].fed_past_valve;
+  const T on_s = CoilSeconds(problem, group, line) + (fills ? strokes * inflate_time_s : T(0.0));
   return line.coil_power_w * on_s;
 }
 

@@ -31,22 +31,23 @@ struct LinePassages {
 };
 
 // Half of the fittings stand at the valve, one more of an odd number.
-inline Elements ElementsOf(const ActuatorGroup& group, const LinePassages& line, bool inward) {
+inline Elements ElementsOf(const ActuatorGroup& group, const LinePassages& line, bool inward,
+                           bool past_valve = false) {
   const int at_valve = (group.fittings_per_line + 1) / 2;
   const int at_actuator = group.fittings_per_line - at_valve;
   Elements crossed;
-  if (inward) crossed.Add(line.valve);
+  if (inward && !past_valve) crossed.Add(line.valve);
   crossed.Add(line.fitting, inward ? at_valve : at_actuator);
   crossed.Add(line.bore);
   crossed.Add(line.fitting, inward ? at_actuator : at_valve);
-  if (!inward) crossed.Add(line.valve);
+  if (!inward && !past_valve) crossed.Add(line.valve);
   return crossed;
 }
 
 // Between source and actuator, and between actuator and ambient: air leaves an evacuated actuator
-// while it is filled.
+// while it is filled. A valve that only vents is not on the way from the source.
 inline Elements FillElements(const ActuatorGroup& group, const LinePassages& line) {
-  return ElementsOf(group, line, !group.chamber.evacuated);
+  return ElementsOf(group, line, !group.chamber.evacuated, group.fed_past_valve);
 }
 inline Elements ExhaustElements(const ActuatorGroup& group, const LinePassages& line) {
   return ElementsOf(group, line, group.chamber.evacuated);

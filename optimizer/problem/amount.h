@@ -17,6 +17,10 @@ double Of(Amount amount, const Totals& totals);
 // The problem's limit on an amount, in the same unit; energy has none.
 double& LimitOn(Amount amount, Problem& problem);
 
+// Whether cost is minimised or limited; and whether a part without a price is then no choice.
+bool CostCounts(const Problem& problem);
+bool PricesNeeded(const Problem& problem);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_PROBLEM_AMOUNT_H_

@@ -5,9 +5,10 @@
 #include <tuple>
 
 #include "model/physics/storage.h"
-#include "optimizer/problem/cost.h"
+#include "optimizer/problem/amount.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/gait.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -130,6 +131,24 @@ std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int pa
                   drawn_from ? JointConductance(problem) : 0.0);
 }
 
+std::vector<Joint> JointsOfFeeds(const Problem& problem, Family family, int part, int quantity) {
+  std::vector<Joint> joints;
+  const auto add = [&](std::optional<Joint> joint, int times) {
+    if (!joint) return;
+    joint->quantity *= times;
+    joints.push_back(*joint);
+  };
+  if (problem.pump_feed != PumpFeed::kPerActuator) {
+    add(JointOfPieces(problem, family, part, quantity), FeedsOf(problem));
+    return joints;
+  }
+  for (const ActuatorGroup& group : problem.groups)
+    add(Lightest(problem, quantity + 1, group.chamber.operating_pressure_pa,
+                 group.joint_conductance_m3_per_s_pa / group.count),
+        group.count);
+  return joints;
+}
+
 std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& rows) {
   std::vector<Joint> joints;
   const auto add = [&](const std::optional<Joint>& joint) {
@@ -143,15 +162,22 @@ std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& r
       same->quantity += joint->quantity;
   };
   const bool own = HasOwnRegulators(rows);
-  if (!own) add(JointOfLines(problem));
-  for (int g = 0; own && g < static_cast<int>(problem.groups.size()); ++g)
+  const bool shared = problem.pump_feed == PumpFeed::kShared;
+  if (!own && shared) add(JointOfLines(problem));
+  for (int g = 0; (own || problem.pump_feed == PumpFeed::kPerGroup) &&
+                  g < static_cast<int>(problem.groups.size());
+       ++g)
     add(JointOfLines(problem, g));
   bool joined = false;  // the regulators
   for (const Choice& row : rows) {
     if (row.group >= 0 || !MayBeJoined(row.family)) continue;
     const int part = FindPart(problem.parts, row.family, row.id);
     if (part < 0) continue;
-    add(JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+    const int pieces = static_cast<int>(row.quantity);
+    if (shared) add(JointOfPieces(problem, row.family, part, pieces));
+    if (!shared && SpecOf(row.family).kind_role == KindRole::kSource)
+      for (const Joint& joint : JointsOfFeeds(problem, row.family, part, pieces / FeedsOf(problem)))
+        add(joint);
     if (own) add(JointOfOwnRegulators(problem, row.family, part));
     joined = true;
   }

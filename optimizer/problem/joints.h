@@ -48,6 +48,10 @@ std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family,
 // The same of some pieces of a part of a source. Batteries and regulators have nothing to join.
 std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity);
 
+// Of all feeds of pumps of their own (pump_feed.h), each of so many pumps. For a group: what joins
+// the pumps. For an actuator, each in its turn: what joins pumps, line and the valve that vents it.
+std::vector<Joint> JointsOfFeeds(const Problem& problem, Family family, int part, int quantity);
+
 // All joints of a design with these other rows; what is the same part is told once.
 std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& rows);
 

@@ -19,7 +19,8 @@ bool OneGroupAnEntry(const Problem& problem) {
 }  // namespace
 
 bool MayOwnRegulators(const Problem& problem, Configuration configuration) {
-  if (IsPumped(configuration) || problem.groups.size() < 2 || !OneGroupAnEntry(problem))
+  if (IsPumped(configuration) || Evacuated(problem) || problem.groups.size() < 2 ||
+      !OneGroupAnEntry(problem))
     return false;
   for (const ActuatorGroup& group : problem.groups)
     if (!group.effects.empty()) return false;

@@ -6,7 +6,7 @@
 // highest inlet pressure that one of the regulators asks.
 //
 // A pump's reservoir feeds its lines itself, so that it has no such designs, and neither has an
-// open tank. Two sides of one actuator (ActuatorGroup::entry) would need two regulators: problems
+// open tank or a vacuum from the wall. Two sides of one actuator (ActuatorGroup::entry) would need two regulators: problems
 // that have them have no such designs. Neither have mains whose flow is limited where groups may
 // draw at once, since they would share it, nor groups of a revised model.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_OWN_REGULATORS_H_

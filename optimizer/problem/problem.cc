@@ -42,6 +42,18 @@ const char* Name(Regulation regulation) {
   return "";
 }
 
+const char* Name(PumpFeed feed) {
+  switch (feed) {
+    case PumpFeed::kShared:
+      return "shared";
+    case PumpFeed::kPerGroup:
+      return "per_group";
+    case PumpFeed::kPerActuator:
+      return "per_actuator";
+  }
+  return "";
+}
+
 const char* Name(PowerKind kind) {
   switch (kind) {
     case PowerKind::kBattery:

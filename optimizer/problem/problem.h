@@ -41,11 +41,9 @@ enum class Configuration {
   kDirectVacuumPump
 };
 inline constexpr int kConfigurations = 8;
-// "cylinder", "co2", "compressor", "mains", "tank", "direct_pump", "vacuum_pump",
-// "direct_vacuum_pump"
+// As requests name them: "cylinder", "co2", …, "direct_vacuum_pump".
 const char* Name(Configuration configuration);
-// Whether pumps keep a reservoir at its pressure meanwhile; whether they feed the lines themselves;
-// either.
+// Whether pumps keep a reservoir at its pressure, feed the lines themselves, or do either.
 inline bool KeepsReservoir(Configuration configuration) {
   return configuration == Configuration::kCompressor || configuration == Configuration::kVacuumPump;
 }
@@ -102,6 +100,7 @@ struct ActuatorGroup {
   int entry = -1;                            // in the request's list; −1: as in that of groups
   // Its part of what joins lines should pass (joints.h).
   double joint_conductance_m3_per_s_pa = 0.0;
+  bool fed_past_valve = false;  // the valve only vents (pump_feed.h)
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
@@ -109,8 +108,7 @@ struct Objective {  // weighted sum; a plain objective has one weight of 1
   bool operator==(const Objective&) const = default;
 };
 
-// What drives pumps, valves and regulators. Of the wall or the robot `batteries` of the parts holds
-// a supply without mass in place of each battery.
+// What drives pumps, valves and regulators. Of wall or robot `batteries` has a supply without mass.
 enum class PowerKind { kBattery, kWall, kRobot };
 const char* Name(PowerKind kind);  // "battery", "wall", "robot"
 struct Power {
@@ -134,6 +132,10 @@ const char* Name(ListOf list);  // "combinations", "kinds"
 enum class Regulation { kShared, kPerGroup, kAny };
 const char* Name(Regulation regulation);  // "shared", "per_group", "any"
 
+// What pumps without a reservoir feed, each feed by pumps of its own (pump_feed.h).
+enum class PumpFeed { kShared, kPerGroup, kPerActuator };
+const char* Name(PumpFeed feed);  // "shared", "per_group", "per_actuator"
+
 struct Limits {  // most identical parts in parallel
   int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
 };
@@ -156,6 +158,7 @@ struct Problem {
   std::set<Configuration> configurations;
   Mains mains;
   Regulation regulation = Regulation::kShared;
+  PumpFeed pump_feed = PumpFeed::kShared;  // others: all configurations are direct (IsDirect)
   Power power;
   double source_pressure_max_pa = kUnlimited;
   double tank_fill_max_pa = kUnlimited;  // a tank is filled to its rating at most, too
@@ -166,11 +169,10 @@ struct Problem {
   model::Ambient ambient;
   Objective objective;
   Limits limits;
-  std::map<Family, std::set<std::string>>
-      require;                    // only these ids of the family; "custom" reservoir
-  std::set<std::string> exclude;  // may hold "custom"
-  std::set<std::string> own;      // at hand: these cost nothing
-  bool orderable_only = false;    // no parts that are no products
+  std::map<Family, std::set<std::string>> require;  // only these ids; "custom" reservoir
+  std::set<std::string> exclude;                    // may hold "custom"
+  std::set<std::string> own;                        // at hand: these cost nothing
+  bool orderable_only = false;                      // no parts that are no products
   int count = 20;
   ListOf list = ListOf::kCombinations;
   int per_source = 3;                    // most kinds on the list with the same sources
@@ -233,9 +235,8 @@ struct SearchOptions {
   bool record = false;  // fill Proof::record
   double time_limit_s = 30.0;
   bool any_design = false;  // the first design found is enough; nothing is proved of it then
-  std::function<bool()> cancelled;  // may be empty
-  std::function<void(const Progress&)>
-      progress;  // called at most a few times a second; may be empty
+  std::function<bool()> cancelled;                // may be empty
+  std::function<void(const Progress&)> progress;  // a few times a second; may be empty
   PeriodicSolver periodic = model::FindPeriodicState;
   // The parts that other `require` and `exclude` leave; empty: these two cannot be dropped.
   std::function<model::Parts(const Problem&)> select;

@@ -95,9 +95,9 @@ class Stroke {
 }  // namespace
 
 const DirectStrokeBound& DirectBounds::StrokeOf(const PumpFacts& facts, const Line& line,
-                                                const Squad& squad, double highest_pa,
+                                                const FedSquad& fed, double highest_pa,
                                                 const Candidate* chosen) {
-  const auto& [g, count, phase] = squad;
+  const int g = fed.squad.group, count = fed.count;
   constexpr std::size_t kKept = 1'000'000;
   if (known_.size() > kKept) known_.clear();
   const auto [entry, fresh] =
@@ -118,21 +118,23 @@ std::optional<DirectNeed> DirectBounds::Least(const PumpFacts& facts,
                                               double highest_pa, const Candidate* chosen) {
   const double slack = chosen ? kQuadrature : kSlack;
   DirectNeed need;
-  for (std::size_t s = 0; s < squads_.size(); ++s) {
-    const int g = squads_[s].group;
+  std::vector<double> on_s(problem_.groups.size(), 0.0);  // of each feed of its own pumps
+  for (const FedSquad& fed : squads_) {
+    const int g = fed.squad.group;
     const Line& line = *lines[g];
     const double strokes = problem_.groups[g].gait.strokes_per_period;
-    const DirectStrokeBound& stroke = StrokeOf(facts, line, squads_[s], highest_pa, chosen);
-    if (stroke.inflate_s > turns_s_[s] * slack ||
+    const DirectStrokeBound& stroke = StrokeOf(facts, line, fed, highest_pa, chosen);
+    if (stroke.inflate_s > fed.turn_s * slack ||
         stroke.rise_s > problem_.groups[g].rise_time_max_s * slack)
       return std::nullopt;
-    need.on_s += strokes * stroke.inflate_s / slack;
-    need.energy_j += strokes * stroke.pump_j / slack;
-    const double share = static_cast<double>(squads_[s].count) / problem_.groups[g].count;
-    if (line.all_hold)
+    on_s[fed.feed] += strokes * stroke.inflate_s / slack;
+    need.energy_j += strokes * fed.feeds * stroke.pump_j / slack;
+    const double share = static_cast<double>(fed.squad.count) / problem_.groups[g].count;
+    if (line.all_hold && !problem_.groups[g].fed_past_valve)
       need.energy_j += strokes * share * line.coil_power_w * stroke.inflate_s / slack;
     need.node_pa = std::max(need.node_pa, stroke.node_pa / slack);
   }
+  need.on_s = *std::max_element(on_s.begin(), on_s.end());
   return need;
 }
 

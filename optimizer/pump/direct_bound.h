@@ -18,12 +18,13 @@
 #include <vector>
 
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/pump_feed.h"
 #include "optimizer/pump/pump_facts.h"
 
 namespace plenum::optimizer {
 
 struct DirectNeed {
-  double on_s = 0.0;      // per cycle
+  double on_s = 0.0;      // per cycle, of the pumps that run longest
   double energy_j = 0.0;  // per cycle: pumps, and coils while they fill
   double node_pa = 0.0;   // highest pressure between pumps and valves, at least
 };
@@ -36,7 +37,7 @@ struct DirectStrokeBound {
 class DirectBounds {
  public:
   explicit DirectBounds(const Problem& problem)
-      : problem_(problem), squads_(SquadsOf(problem)), turns_s_(DirectTurns(problem)) {}
+      : problem_(problem), squads_(FedSquadsOf(problem)) {}
 
   // Of the pumps of `facts`, which stay where they are, with `lines`, one per group, with curves
   // and strokes that are counted; none where a group is too slow. No part stands more than
@@ -48,12 +49,11 @@ class DirectBounds {
  private:
   // Pumps, strokes of the line, actuators, highest_pa or 0 of what is chosen.
   using Key = std::tuple<const PumpFacts*, int, int, double>;
-  const DirectStrokeBound& StrokeOf(const PumpFacts& facts, const Line& line, const Squad& squad,
+  const DirectStrokeBound& StrokeOf(const PumpFacts& facts, const Line& line, const FedSquad& fed,
                                     double highest_pa, const Candidate* chosen);
 
   const Problem& problem_;
-  std::vector<Squad> squads_;
-  std::vector<double> turns_s_;
+  std::vector<FedSquad> squads_;
   std::map<Key, DirectStrokeBound> known_;
 };
 

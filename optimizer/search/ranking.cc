@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -35,7 +36,8 @@ TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
     const BoxNode& node = (*slot.nodes)[box.nodes[s]];
     const Option& option = (*slot.options)[node.earliest];
     std::string id = IdOf(problem.parts, slot.family, option.index);
-    if (!id.empty()) key.ids.emplace_back(std::move(id), option.quantity);
+    const int bought = option.quantity * FeedsOf(problem, slot.family);
+    if (!id.empty()) key.ids.emplace_back(std::move(id), bought);
     key.share += node.tie;
   };
   for (int g = 0; g < static_cast<int>(plan.groups.size()); ++g)

@@ -10,6 +10,7 @@
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -35,7 +36,7 @@ void AddChoice(const Problem& problem, Family family, const Option& option,
                std::vector<Choice>& parts) {
   if (option.index < 0) return;
   const model::PartBasics& basics = BasicsOf(problem.parts, family, option.index);
-  parts.push_back(PieceChoice(family, basics, -1, option.quantity));
+  parts.push_back(PieceChoice(family, basics, -1, option.quantity * FeedsOf(problem, family)));
   parts.back().mass_kg += option.quantity * ChargeKg(problem, family, option.index);
 }
 

@@ -10,6 +10,7 @@
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 #include "optimizer/sizing/effect_sizing.h"
 #include "optimizer/sizing/report.h"
 
@@ -106,7 +107,7 @@ bool SetOptions(const Problem& problem, const Design& design, Candidate& candida
     if (choice == nullptr) continue;
     Option& option = OptionOf(candidate, spec.family);
     option.index = FindPart(problem.parts, spec.family, choice->id);
-    option.quantity = static_cast<int>(choice->quantity);
+    option.quantity = static_cast<int>(choice->quantity) / FeedsOf(problem, spec.family);
     if (option.index < 0) {
       if (!spec.made_to_measure || choice->id != "custom") return false;
       option.index = kCustom;

@@ -223,7 +223,9 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   if (candidate.configuration == Configuration::kCylinder) add(parts.cylinders, candidate.bottle);
   if (candidate.configuration == Configuration::kCo2) add(parts.co2, candidate.bottle);
   if (candidate.configuration == Configuration::kTank) add(parts.tanks, candidate.bottle);
-  add(PumpsOf(problem), candidate.compressor);
+  optimizer::Option pumps = candidate.compressor;
+  pumps.quantity *= FeedsByHand(problem);
+  add(PumpsOf(problem), pumps);
   add(parts.batteries, candidate.battery);
   add(parts.reservoirs, candidate.reservoir);
   if (candidate.reservoir.index == optimizer::kCustom) key.emplace_back("custom", 1);

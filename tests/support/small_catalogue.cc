@@ -183,6 +183,29 @@ optimizer::Amounts JoinedLines(const optimizer::Problem& problem) {
   return Joined(problem, lines, HighestOperatingPa(problem), Asked(problem));
 }
 
+// Of the lines of one group, as pumps of its own feed them.
+optimizer::Amounts JoinedLinesOf(const optimizer::Problem& problem,
+                                 const optimizer::ActuatorGroup& group) {
+  return Joined(problem, group.count, group.chamber.operating_pressure_pa,
+                group.joint_conductance_m3_per_s_pa);
+}
+
+optimizer::Amounts Share(double share, const optimizer::Amounts& whole) {
+  return {share * whole.mass_kg, share * whole.volume_m3, share * whole.cost_eur};
+}
+
+// Of pumps of their own, so many for each group or actuator: what joins them.
+optimizer::Amounts JoinedFeeds(const optimizer::Problem& problem, int pumps, double stands_pa) {
+  optimizer::Amounts sum;
+  for (const optimizer::ActuatorGroup& group : problem.groups)
+    if (problem.pump_feed == optimizer::PumpFeed::kPerGroup)
+      sum += Joined(problem, pumps, stands_pa, 0.0);
+    else
+      sum += Share(group.count, Joined(problem, pumps + 1, group.chamber.operating_pressure_pa,
+                                       group.joint_conductance_m3_per_s_pa / group.count));
+  return sum;
+}
+
 // From the valve to the actuator.
 std::vector<model::FlowElement> Inward(const optimizer::ActuatorGroup& group,
                                        const model::FlowElement& valve,
@@ -216,6 +239,20 @@ double MostForPeak(const Problem& problem, const optimizer::Line& line, int grou
 
 }  // namespace
 
+int FeedsByHand(const Problem& problem) {
+  switch (problem.pump_feed) {
+    case optimizer::PumpFeed::kShared:
+      return 1;
+    case optimizer::PumpFeed::kPerGroup:
+      return static_cast<int>(problem.groups.size());
+    case optimizer::PumpFeed::kPerActuator:
+      break;
+  }
+  int actuators = 0;
+  for (const optimizer::ActuatorGroup& group : problem.groups) actuators += group.count;
+  return actuators;
+}
+
 optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing_index,
                              int fitting_index, int valve_index, model::Gas gas) {
   const optimizer::ActuatorGroup& group = problem.groups[group_index];
@@ -241,16 +278,17 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   if (fitting != nullptr) add(fittings, fitting->basics);
   int lines = 0;
   for (const optimizer::ActuatorGroup& other : problem.groups) lines += other.count;
-  const optimizer::Amounts joint = JoinedLines(problem);
-  const double share = static_cast<double>(group.count) / lines;
-  line.amounts.mass_kg += share * joint.mass_kg;
-  line.amounts.volume_m3 += share * joint.volume_m3;
-  line.amounts.cost_eur += share * joint.cost_eur;
+  if (problem.pump_feed == optimizer::PumpFeed::kShared)
+    line.amounts += Share(static_cast<double>(group.count) / lines, JoinedLines(problem));
+  if (problem.pump_feed == optimizer::PumpFeed::kPerGroup)
+    line.amounts += JoinedLinesOf(problem, group);
 
   const model::FlowElement tube = model::TubeElement(tubing.inner_diameter_m, group.tube_length_m);
   const model::FlowElement connection = fitting == nullptr ? model::FlowElement{} : fitting->flow;
   line.fill = Inward(group, valve.fill, connection, tube);
   line.exhaust = Inward(group, valve.exhaust, connection, tube);
+  // A pump of each actuator feeds it past the valve.
+  if (problem.pump_feed == optimizer::PumpFeed::kPerActuator) line.fill.erase(line.fill.begin());
   // Evacuated ones are crossed the other way round.
   auto& outward = group.chamber.evacuated ? line.fill : line.exhaust;
   std::reverse(outward.begin(), outward.end());
@@ -333,7 +371,14 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
       take(parts.reservoirs[index].basics, 0.0);
       asked = lines_ask;
   }
-  if (family != Family::kBattery) option.amounts += Joined(problem, quantity, stands_pa, asked);
+  const bool pump = family == Family::kCompressor || family == Family::kVacuumPump;
+  if (pump && problem.pump_feed != optimizer::PumpFeed::kShared) {
+    const double feeds = FeedsByHand(problem);
+    option.amounts = Share(feeds, option.amounts);
+    option.amounts += JoinedFeeds(problem, quantity, stands_pa);
+  } else if (family != Family::kBattery) {
+    option.amounts += Joined(problem, quantity, stands_pa, asked);
+  }
   return option;
 }
 

@@ -38,6 +38,9 @@ optimizer::Problem EasyProblem(std::uint64_t seed,
 optimizer::Line AssembleLine(const optimizer::Problem& problem, int group, int tubing, int fitting,
                              int valve, model::Gas gas);
 
+// How many times a design buys what feeds one group, or one actuator, or all.
+int FeedsByHand(const optimizer::Problem& problem);
+
 // Raw rules of compatibility.
 bool Mates(const optimizer::Problem& problem, int tubing, int fitting, int valve);
 

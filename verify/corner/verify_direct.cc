@@ -38,7 +38,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
   const ProofItem& first = plan_.slots[compressor_].choices[compressors.first];
   const bool single = compressors.second == compressors.first + 1;
   const model::CompressorCurve& curve = PumpsOf(problem_)[first.part].curve;
-  const int g = unit.group, count = unit.count;
+  const int g = unit.group, count = unit.count / unit.feeds;  // of one feed
   const double share = static_cast<double>(count) / problem_.groups[g].count;
   const double highest_pa = std::min(cells.highest_pa, line.source_high_pa);
   const auto delivered = [&](double p) {
@@ -109,6 +109,7 @@ bool DirectPumps::Suits(const Ranges& ranges, const std::vector<const BestLine*>
 double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double node_pa,
                                  double coil_w) const {
   const std::vector<model::Compressor>& compressors = PumpsOf(problem_);
+  const int running = FeedsRunning(problem_);
   double least = kUnlimited;
   for (int i = ranges[battery_].first; i < ranges[battery_].second; ++i) {
     const ProofItem& item = plan_.slots[battery_].choices[i];
@@ -122,7 +123,8 @@ double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double n
       const ProofItem& pump = plan_.slots[compressor_].choices[c];
       const model::CompressorCurve& curve = compressors[pump.part].curve;
       if (!model::VoltageMatches(pack.nominal_voltage_v, curve.voltage_v) ||
-          pump.quantity * model::LargestCurrent(curve, problem_.ambient.pressure_pa, node_pa) >
+          running * pump.quantity *
+                  model::LargestCurrent(curve, problem_.ambient.pressure_pa, node_pa) >
               pumps_a)
         continue;
       least = std::min(least, amounts_[battery_][i].objective);
@@ -138,7 +140,9 @@ double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine
   if (!Suits(ranges, lines)) return kUnlimited;
   double high_pa = std::min(cells.highest_pa, problem_.source_pressure_max_pa);
   double node_pa = problem_.ambient.pressure_pa;
-  double on_s = 0.0, beyond_j = 0.0, coils_j = 0.0, coil_w = 0.0;  // per cycle
+  double beyond_j = 0.0, coils_j = 0.0, coil_w = 0.0;  // per cycle
+  const bool own_pumps = problem_.pump_feed != PumpFeed::kShared;
+  std::vector<double> on_s(problem_.groups.size(), 0.0);  // of each feed of pumps
   for (const Unit& unit : units_) {
     const int g = unit.group;
     const double strokes = problem_.groups[g].gait.strokes_per_period;
@@ -149,16 +153,18 @@ double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine
     if (stroke.inflate_s > fill_max_s * kSlack ||
         stroke.rise_s > problem_.groups[g].rise_time_max_s * kSlack)
       return kUnlimited;
-    on_s += strokes * stroke.inflate_s;
-    beyond_j += strokes * stroke.pump_j;
-    if (line.all_hold) beyond_j += strokes * share * line.coil_w * stroke.inflate_s;
+    on_s[own_pumps ? g : 0] += strokes * stroke.inflate_s;
+    beyond_j += strokes * unit.feeds * stroke.pump_j;
+    if (line.all_hold && !problem_.groups[g].fed_past_valve)
+      beyond_j += strokes * share * line.coil_w * stroke.inflate_s;
     coil_w += share * line.coil_w;
     coils_j += share * line.coil_w * line.coil_s;
     // A constant source at the highest pressure is faster.
     node_pa = std::max({node_pa, stroke.node_pa, line.source_low_pa});
     high_pa = std::min(high_pa, line.source_high_pa);
   }
-  if (node_pa > high_pa * kSlack || on_s * problem_.frequency_hz > cells.duty_max * kSlack)
+  const double longest_s = *std::max_element(on_s.begin(), on_s.end());
+  if (node_pa > high_pa * kSlack || longest_s * problem_.frequency_hz > cells.duty_max * kSlack)
     return kUnlimited;
   beyond_j *= problem_.actuations;
   return chosen + LeastBattery(ranges, beyond_j + problem_.actuations * coils_j, node_pa, coil_w) +

@@ -130,6 +130,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   // Gathered inward: that is how air is let in of evacuated actuators.
   std::vector<model::FlowElement> exhaust = best.fill;
   exhaust.front() = exhaust_valve;
+  if (group.fed_past_valve) best.fill.erase(best.fill.begin());
   std::reverse(Evacuated(problem) ? best.fill.begin() : exhaust.begin(),
                Evacuated(problem) ? best.fill.end() : exhaust.end());
   const double fall_s =

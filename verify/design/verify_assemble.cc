@@ -4,6 +4,7 @@
 
 #include "model/flow/tube.h"
 #include "model/physics/storage.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_joints.h"
@@ -20,7 +21,8 @@ std::optional<ProofItem> ItemOf(const Problem& problem, const Choice& choice) {
     return ProofItem{-2, 1};
   const int part = FindPart(problem.parts, choice.family, choice.id);
   if (part < 0) return std::nullopt;
-  return ProofItem{part, choice.group < 0 ? static_cast<int>(choice.quantity) : 1};
+  const int times = TimesBought(problem, choice.family);
+  return ProofItem{part, choice.group < 0 ? static_cast<int>(choice.quantity) / times : 1};
 }
 
 // Pieces that a row of a group must have: metres of tube, fittings, valves with their channels.
@@ -32,8 +34,8 @@ double LineQuantity(const ActuatorGroup& group, const Choice& choice, const Line
 }
 
 bool IsSourceQuantity(const Problem& problem, const Choice& choice, const ProofItem& item) {
-  return item.quantity == choice.quantity && item.quantity >= 1 &&
-         item.quantity <= QuantityMax(problem, choice.family);
+  return item.quantity * TimesBought(problem, choice.family) == choice.quantity &&
+         item.quantity >= 1 && item.quantity <= QuantityMax(problem, choice.family);
 }
 
 bool Whole(const Problem& problem, const Assembly& a) {
@@ -143,14 +145,19 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
     for (const auto& [manifold, pieces] : rows)
       add(Times(pieces, problem.parts.manifolds[manifold].basics));
   };
-  if (!a.owns()) join(JointOfLines(problem));
-  for (int g = 0; a.owns() && g < static_cast<int>(a.lines.size()); ++g)
+  const bool shared = problem.pump_feed == PumpFeed::kShared;
+  if (!a.owns() && shared) join(JointOfLines(problem));
+  for (int g = 0; (a.owns() || problem.pump_feed == PumpFeed::kPerGroup) &&
+                  g < static_cast<int>(a.lines.size());
+       ++g)
     join(JointOfGroup(problem, g));
   if (a.owns() && a.configuration == Configuration::kMains) join(JointOfRegulatorsAtMains(problem));
   const auto join_pieces = [&](Family family, const auto& parts, const auto* part, int pieces) {
     if (!part) return;
     const int index = static_cast<int>(part - parts.data());
-    join(JointOfPieces(problem, family, index, pieces));
+    join(shared                                  ? JointOfPieces(problem, family, index, pieces)
+         : family == PumpFamily(a.configuration) ? JointsOfFeeds(problem, family, index, pieces)
+                                                 : JointRows{});
     if (a.owns()) join(JointOfRegulators(problem, family, index));
   };
   const model::Parts& parts = problem.parts;
@@ -162,7 +169,7 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
   if (a.tank) add(Filled(problem, a.tanks, *a.tank, settings));
   if (a.co2) add(Times(a.bottles, a.co2->basics, a.co2->co2_mass_kg));
-  if (a.compressor) add(Times(a.compressors, a.compressor->basics));
+  if (a.compressor) add(Times(a.compressors * Feeds(problem), a.compressor->basics));
   if (a.battery) add(Times(a.batteries, a.battery->basics));
   if (a.reservoir)
     add(Times(a.reservoirs, a.reservoir->basics));
@@ -349,7 +356,7 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
   const double objective = ObjectiveOf(problem, totals);
   if (!Near(design.objective, objective, kSumTolerance))
     findings.push_back({"amounts", "the objective is not that of the totals"});
-  if (PricesNeeded(problem) && !totals.cost_eur)
+  if (AsksForPrices(problem) && !totals.cost_eur)
     findings.push_back({"amounts", "a part without a price where cost matters"});
 }
 

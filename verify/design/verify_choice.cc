@@ -25,13 +25,22 @@ void Add(const Problem& problem, const JointRows& rows, double share, ItemAmount
 
 // What joins the pieces; a tube has its group's share, by number, of what joins all lines. Where
 // groups have regulators of their own it has what joins the group's lines, and the source, or the
-// first regulator at the mains, what joins the regulators.
+// first regulator at the mains, what joins the regulators. Pumps of their own have what joins each
+// feed.
 void AddJoints(const Problem& problem, const Layout& layout, const ProofSlot& slot,
                const ProofItem& item, ItemAmounts& sum) {
   if (slot.family == Family::kTubing) {
+    if (problem.pump_feed == PumpFeed::kPerActuator) return;  // with the pumps
+    if (problem.pump_feed == PumpFeed::kPerGroup)
+      return Add(problem, JointOfGroup(problem, slot.group), 1.0, sum);
     const double share = static_cast<double>(problem.groups[slot.group].count) / Lines(problem);
     return layout.own_regulators ? Add(problem, JointOfGroup(problem, slot.group), 1.0, sum)
                                  : Add(problem, JointOfLines(problem), share, sum);
+  }
+  if (problem.pump_feed != PumpFeed::kShared) {
+    if (slot.family == PumpFamily(layout.configuration))
+      Add(problem, JointsOfFeeds(problem, slot.family, item.part, item.quantity), 1.0, sum);
+    return;
   }
   Add(problem, JointOfPieces(problem, slot.family, item.part, item.quantity), 1.0, sum);
   if (!layout.own_regulators) return;
@@ -59,7 +68,7 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const Pr
            0.0,          share * made.mass_kg, share * made.body_volume_m3};
   } else {
     const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
-    double pieces = item.quantity, gas_kg = 0.0;
+    double pieces = item.quantity * TimesBought(problem, slot.family), gas_kg = 0.0;
     if (slot.group >= 0 && slot.family != Family::kRegulator) {
       const ActuatorGroup& group = problem.groups[slot.group];
       pieces = group.count *

@@ -4,7 +4,7 @@
 
 namespace plenum::verify {
 
-bool PricesNeeded(const Problem& problem) {
+bool AsksForPrices(const Problem& problem) {
   return !problem.unpriced_allowed &&
          (problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur));
 }
@@ -23,7 +23,7 @@ std::vector<ProofItem> EntriesOf(const Problem& problem, const Layout& layout,
   const Family family = slot.family;
   if (family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
     return {{-1, 0}};
-  const bool cost = PricesNeeded(problem);
+  const bool cost = AsksForPrices(problem);
   std::vector<ProofItem> entries;
   for (int part = 0; part < FamilySize(problem.parts, family); ++part)
     for (int quantity = 1; quantity <= QuantityMax(problem, family); ++quantity)

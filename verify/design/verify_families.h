@@ -26,7 +26,7 @@ using optimizer::SpecOf;
 using optimizer::Use;
 
 // Whether a part without a price is no choice.
-bool PricesNeeded(const Problem& problem);
+bool AsksForPrices(const Problem& problem);
 
 // What a slot can be filled with: every part in every number, priced ones alone where cost matters,
 // and no part where the source may lack one.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_families.h"
 
 namespace plenum::verify {
@@ -44,8 +45,9 @@ TieKey TieKeyOf(const Problem& problem, const Design& design) {
   for (const Choice& row : design.parts) {
     if (row.family == Family::kManifold) continue;  // it counts with what it joins
     const bool made = row.family == Family::kReservoir && row.id == "custom";
-    const ProofItem item{made ? -2 : FindPart(problem.parts, row.family, row.id),
-                         row.group < 0 ? static_cast<int>(row.quantity) : 1};
+    const ProofItem item{
+        made ? -2 : FindPart(problem.parts, row.family, row.id),
+        row.group < 0 ? static_cast<int>(row.quantity) / TimesBought(problem, row.family) : 1};
     if (item.part == -1) continue;  // no part of the catalogue, which another check tells
     key.share += ShareOfTies(
         problem, ChoiceAmounts(problem, LayoutOf(design), {row.family, row.group, {}, {}}, item));

@@ -4,6 +4,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/problem/family_specs.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_families.h"
 
 namespace plenum::verify {
@@ -15,7 +16,7 @@ double Pieces(int joined, const model::Manifold& row) {
 
 bool Serves(const Problem& problem, const model::Manifold& row, double pressure_pa) {
   return row.stations > 1 && row.pressure_max_pa >= pressure_pa &&
-         (!PricesNeeded(problem) || row.basics.cost_eur);
+         (!AsksForPrices(problem) || row.basics.cost_eur);
 }
 
 // Whether a is taken rather than b, whatever they weigh: 1, 0 where that is open, or −1.
@@ -122,20 +123,39 @@ JointRows JointOfRegulatorsAtMains(const Problem& problem) {
               Asked(problem));
 }
 
+JointRows JointsOfFeeds(const Problem& problem, Family family, int part, int pumps) {
+  JointRows all;
+  for (const ActuatorGroup& group : problem.groups) {
+    const bool each = problem.pump_feed == PumpFeed::kPerActuator;
+    const JointRows one = each ? Join(problem, pumps + 1, group.chamber.operating_pressure_pa,
+                                      group.joint_conductance_m3_per_s_pa / group.count)
+                               : JointOfPieces(problem, family, part, pumps);
+    for (const auto& [manifold, pieces] : one) all[manifold] += pieces * (each ? group.count : 1);
+  }
+  return all;
+}
+
 JointRows JointsOf(const Problem& problem, const Design& design) {
   const bool own = HasOwnRegulators(design.parts);
   JointRows all;
   const auto add = [&](const JointRows& rows) {
     for (const auto& [manifold, pieces] : rows) all[manifold] += pieces;
   };
-  if (!own) add(JointOfLines(problem));
-  for (int g = 0; own && g < static_cast<int>(problem.groups.size()); ++g)
+  const bool shared = problem.pump_feed == PumpFeed::kShared;
+  if (!own && shared) add(JointOfLines(problem));
+  for (int g = 0; (own || problem.pump_feed == PumpFeed::kPerGroup) &&
+                  g < static_cast<int>(problem.groups.size());
+       ++g)
     add(JointOfGroup(problem, g));
   if (own && design.configuration == Configuration::kMains) add(JointOfRegulatorsAtMains(problem));
   for (const Choice& row : design.parts) {
     if (row.group >= 0) continue;
     const int part = FindPart(problem.parts, row.family, row.id);
-    add(JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+    const int pieces = static_cast<int>(row.quantity);
+    if (shared)
+      add(JointOfPieces(problem, row.family, part, pieces));
+    else if (row.family == PumpFamily(design.configuration))
+      add(JointsOfFeeds(problem, row.family, part, pieces / Feeds(problem)));
     if (own) add(JointOfRegulators(problem, row.family, part));
   }
   return all;

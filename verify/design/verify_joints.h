@@ -22,6 +22,9 @@ JointRows JointOfPieces(const Problem& problem, Family family, int part, int pie
 JointRows JointOfGroup(const Problem& problem, int group);
 JointRows JointOfRegulators(const Problem& problem, Family family, int part);
 JointRows JointOfRegulatorsAtMains(const Problem& problem);
+// Of pumps without a reservoir, so many a feed, where each group or each actuator has its own: what
+// joins them, of an actuator with its line and the valve that vents it, for all feeds.
+JointRows JointsOfFeeds(const Problem& problem, Family family, int part, int pumps);
 // Of a design with its other rows.
 JointRows JointsOf(const Problem& problem, const Design& design);
 

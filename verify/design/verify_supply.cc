@@ -114,8 +114,9 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
       supply.first_fill_m3 =
           model::StandardVolume(volume_m3 * (source_pa - ambient_pa), temperature_k);
     }
+    const int running = a.direct() ? FeedsRunning(problem) : 1;
     supply.current_a =
-        a.compressors * model::LargestCurrent(a.compressor->curve, ambient_pa, source_pa);
+        running * a.compressors * model::LargestCurrent(a.compressor->curve, ambient_pa, source_pa);
     supply.frequency_hz = std::min(supply.frequency_hz, a.compressor->duty_max / cycle.pump_on_s);
   }
   if (a.battery) {

@@ -50,6 +50,7 @@ using optimizer::ProofRecord;
 using optimizer::ProofSlot;
 using optimizer::Pruned;
 using optimizer::PumpFamily;
+using optimizer::PumpFeed;
 using optimizer::PumpsOf;
 using optimizer::RobustAnswer;
 using optimizer::RobustOptions;

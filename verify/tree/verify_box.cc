@@ -1,5 +1,6 @@
 #include "verify/tree/verify_box.h"
 
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_size.h"
 
@@ -42,7 +43,8 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
     for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
       const ProofItem& item = plan.slots[slot].choices[i];
       if (item.part == -1) continue;
-      Ids::value_type id{IdOf(problem, place.family, item), item.quantity};
+      Ids::value_type id{IdOf(problem, place.family, item),
+                         item.quantity * TimesBought(problem, place.family)};
       if (!first || id < *first) first = std::move(id);
     }
     if (first) ids.push_back(std::move(*first));

@@ -23,7 +23,8 @@ std::optional<std::vector<int>> PositionsOf(const Problem& problem, const ProofP
     for (const Choice& choice : design.parts)
       if (choice.family == slot.family && choice.group == slot.group) {
         id = choice.id;
-        if (slot.group < 0) quantity = static_cast<int>(choice.quantity);
+        if (slot.group < 0)
+          quantity = static_cast<int>(choice.quantity) / TimesBought(problem, choice.family);
       }
     int position = -1;
     for (std::size_t i = 0; i < slot.choices.size(); ++i) {
@@ -119,7 +120,7 @@ class RecordCheck {
   // A layout without a plan has a family without a choice.
   void Missing(const Layout& layout) {
     const BigCount combinations = Combinations(problem_, layout);
-    if (combinations > 0 && !PricesNeeded(problem_))
+    if (combinations > 0 && !AsksForPrices(problem_))
       findings_.push_back({"choices", std::string("no plan of ") + Name(layout.configuration)});
     else
       counts_.unpriced += combinations;

@@ -6,6 +6,7 @@
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
 #include "api/design/read/joint_rows.h"
+#include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/remarks.h"
 #include "api/json/shared_fields.h"
@@ -45,7 +46,7 @@ Parsed<GivenRequest> ReadGivenRequest(const Json& request, const std::vector<cat
   given.design = ReadGivenDesign(reader.Object("design"), problem);
   reader.Finish();
   const auto complete = [&](optimizer::Design& design, const char* pointer) {
-    AddOutsidePower(problem, design);
+    AddOutside(problem, design);
     if (errors.empty()) CheckCombination(design, problem, parts, pointer, errors);
     if (errors.empty()) design = WithReservoirVolume(std::move(design), problem);
     if (errors.empty()) WarnOfMissingJoints(design, problem, pointer);

@@ -38,6 +38,10 @@ Parsed<std::string> MakeUnitFile(const Json& request, const std::vector<catalog:
     return Errors{{"/design/parts",
                    "must have one regulator for all groups: a unit has one source, and regulators "
                    "of their own for each group are not among what it can hold"}};
+  if (given.asked.problem.pump_feed != optimizer::PumpFeed::kShared)
+    return Errors{{"/requirements/supply/pumps",
+                   "must be shared: a unit has one source, and pumps of their own for each group "
+                   "or actuator are not among what it can hold"}};
   auto driven = optimizer::Drive(optimizer::WithPartsOf(given.asked.problem, given.design),
                                  given.design, After(seconds_max));
   if (!driven)

@@ -4,6 +4,7 @@
 
 #include "api/design/proof_record.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/units.h"
@@ -73,7 +74,7 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   design.objective = reader.Number("objective", kAnyNumber);
   for (const Element& row : reader.List("parts", 1, kDesignRowsMax))
     design.parts.push_back(ReadRow(Reader(row, errors), problem, design.configuration));
-  AddOutsidePower(problem, design);
+  AddOutside(problem, design);
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem, design.configuration);
   if (optimizer::KeepsReservoir(design.configuration) && !design.settings.reservoir_volume_m3)

@@ -7,6 +7,8 @@
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/joint_rows.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/outside.h"
+#include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
 #include "api/design/read/supply/regulation.h"
 #include "api/json/units.h"
@@ -14,6 +16,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::api {
 namespace {
@@ -132,11 +135,9 @@ class Check {
   }
 
   void CheckRow(const Choice& choice) {
-    if (IsOutsidePower(choice, problem_)) {
-      if (Find(problem_.parts.batteries, &choice) == nullptr)
-        FailRow(choice, "/id",
-                std::string("is no choice: power comes from the ") + Name(problem_.power.kind));
-      return;
+    if (IsOutside(choice, problem_)) {
+      const std::string why = WhyNotOutside(choice, problem_);
+      return why.empty() ? void() : FailRow(choice, "/id", why);
     }
     const std::string piece = Piece(choice.family);
     const optimizer::FamilySpec& spec = optimizer::SpecOf(choice.family);
@@ -200,6 +201,8 @@ class Check {
     } else if (optimizer::Evacuated(problem_) && !StandsVacuum(*found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " does not stand a vacuum, or its row does not say enough");
+    } else if (found != catalogue_.end() && !SuitsFeed(problem_, *found)) {
+      FailRow(choice, "/id", Quoted(choice.id) + WhyNotForFeed(problem_, *found));
     } else if (found != catalogue_.end() && !IsAllowed(problem_, choice.family, *found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is no product that one can order, which supply.parts asks for");
@@ -234,12 +237,12 @@ class Check {
   void CheckSourceQuantity(const Choice& choice) {
     const int most = IsCustom(choice) ? 1 : optimizer::QuantityMax(problem_, choice.family);
     const char* field = IsCustom(choice) ? nullptr : LimitField(choice.family);
-    const double n = choice.quantity;
+    const int feeds = IsCustom(choice) ? 1 : optimizer::FeedsOf(problem_, choice.family);
+    const double n = choice.quantity / feeds;  // of a feed
     if (n == std::floor(n) && n >= 1 && n <= most) return;
-    const std::string allowed = std::to_string(most);
+    const std::string limit = field ? std::string(" (limits.") + field + ")" : "";
     FailRow(choice, "/quantity",
-            "must be " + (most == 1 ? allowed : "a whole number ≥ 1 and ≤ " + allowed) +
-                (field ? std::string(" (limits.") + field + ")" : "") + ", not " + Decimal(n));
+            "must be " + PiecesWanted(most, feeds) + limit + ", not " + Decimal(choice.quantity));
   }
 
   void CheckMissing() {

@@ -74,7 +74,7 @@ optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration 
 
 optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configuration configuration) {
   optimizer::Settings settings;
-  if (optimizer::IsVacuum(configuration))
+  if (optimizer::Evacuated(problem))
     ReadVacuumOf(reader, problem, configuration, settings);
   else if (reader.Has("source_pressure_kpa_gauge") || !optimizer::IsDirect(configuration))
     settings.source_pressure_pa = PaFromKpaGauge(

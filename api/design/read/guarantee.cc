@@ -5,6 +5,7 @@
 
 #include "api/design/read/actuators/gait_reader.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 
 namespace plenum::api {
@@ -107,7 +108,7 @@ optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
   if (NeedsHoldingValves(problem))
     std::erase_if(guaranteed.parts.valves,
                   [](const model::Valve& valve) { return !model::Holds(valve.kind); });
-  ReplaceBatteries(guaranteed, guaranteed.parts);
+  ReplaceOutside(guaranteed, guaranteed.parts);
   return guaranteed;
 }
 

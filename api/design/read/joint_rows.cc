@@ -41,7 +41,8 @@ void SetJoints(Problem& problem) {
 }
 
 void WarnOfJoints(const Problem& problem) {
-  if (optimizer::LineCount(problem) < 2 || problem.regulation == optimizer::Regulation::kPerGroup)
+  if (optimizer::LineCount(problem) < 2 || problem.regulation == optimizer::Regulation::kPerGroup ||
+      problem.pump_feed != optimizer::PumpFeed::kShared)
     return;
   const double asked = optimizer::JointConductance(problem);
   const std::optional<Joint> joint = optimizer::JointOfLines(problem);

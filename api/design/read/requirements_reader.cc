@@ -11,6 +11,7 @@
 #include "api/design/read/joint_rows.h"
 #include "api/design/read/objective_reader.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
 #include "api/design/read/supply/regulation.h"
 #include "api/design/read/supply/vacuum_reader.h"
@@ -67,25 +68,6 @@ void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& prob
     supply.Fail("mains", "is required by the configuration mains");
 }
 
-// What pumps without a reservoir feed.
-void ReadPumps(Reader& supply, const optimizer::Problem& problem) {
-  const bool named = problem.configurations.contains(Configuration::kDirectPump);
-  const bool several = problem.groups.size() > 1;
-  std::string pumps = "shared";
-  if (supply.Has("pumps")) pumps = supply.Choice("pumps", {"shared", "per_group", "per_actuator"});
-  if (supply.Has("pumps") && !named)
-    supply.Fail("pumps",
-                "is for the configuration direct_pump, which supply.configurations does not name");
-  if (pumps == "per_actuator")
-    supply.Fail("pumps",
-                "must be shared or per_group, not \"per_actuator\": a pump for each actuator needs "
-                "a 2/2 vent valve, which the catalogue has no type for");
-  if (pumps == "per_group" && several)
-    supply.Fail("pumps",
-                "must be shared where there are several groups, not \"per_group\": pumps of their "
-                "own for each group are not searched yet");
-}
-
 void ReadSupply(Reader& request, optimizer::Problem& problem) {
   static const Json kNothing = Json::object();
   auto given = request.OptionalObject("supply");
@@ -99,10 +81,10 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
     mains->Finish();
   }
   ReadConfigurations(supply, mains.has_value(), problem);
-  ReadPumps(supply, problem);
   ReadRegulation(supply, problem);
   ReadPower(supply, problem);
   ReadVacuum(supply, problem);
+  ReadPumps(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (source && !optimizer::Evacuated(problem))
     problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/supply/outside.h"
+#include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
@@ -22,6 +24,7 @@ bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem
                Family family) {
   if (optimizer::MadeToMeasureAllowed(problem, family)) return true;
   if (family == Family::kBattery && HasOutsidePower(problem)) return true;
+  if (family == Family::kRegulator && HasWallVacuum(problem)) return true;
   return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
     return part.family == optimizer::Name(family) && IsAllowed(problem, family, part);
   });
@@ -49,7 +52,7 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const std::stri
 bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::Part& part) {
   return IsAllowed(problem, family, part.id) &&
          (!problem.orderable_only || part.orderable.value_or(true)) &&
-         (!optimizer::Evacuated(problem) || StandsVacuum(part));
+         (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part);
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
@@ -133,7 +136,7 @@ model::Parts ModelPartsFor(const optimizer::Problem& problem,
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,
                                const optimizer::Problem& problem) {
   model::Parts allowed = ModelPartsFor(problem, AllowedParts(parts, problem));
-  ReplaceBatteries(problem, allowed);
+  ReplaceOutside(problem, allowed);
   return allowed;
 }
 

@@ -8,6 +8,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/units.h"
 #include "catalog/fields/fields.h"
@@ -139,6 +140,7 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
     }
     model::Parts parts = ModelPartsFor(problem, drawn);
     if (HasOutsidePower(problem)) parts.batteries = problem.parts.batteries;
+    if (HasWallVacuum(problem)) parts.regulators = problem.parts.regulators;
     return parts;
   };
 }

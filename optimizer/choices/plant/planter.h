@@ -24,6 +24,7 @@
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/kind.h"
+#include "optimizer/problem/pump_feed.h"
 #include "optimizer/pump/pump_slope.h"
 
 namespace plenum::optimizer {
@@ -272,7 +273,7 @@ class Planter {
         family, true,
         [&](int part, int quantity) {
           const double pieces = quantity;
-          return Count{pieces, pieces,
+          return Count{pieces * FeedsOf(problem_, family), pieces,
                        SourceJoint(problem_, family, part, quantity, plan_->own_regulators)};
         },
         rule);

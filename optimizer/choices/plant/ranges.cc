@@ -4,6 +4,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -68,11 +69,12 @@ double LargestTie(const Problem& problem, const Layout& layout) {
   add(parts.regulators, layout.own_regulators ? static_cast<double>(problem.groups.size()) : 1.0);
   add(parts.cylinders, most.cylinders);
   add(parts.co2, most.co2);
-  add(PumpsOf(problem), most.compressors);
+  add(PumpsOf(problem), most.compressors * FeedsOf(problem));
   add(parts.batteries, most.batteries);
   add(parts.reservoirs, most.reservoirs);
   add(parts.tanks, most.reservoirs);
-  add(parts.manifolds, LineCount(problem) + 32);  // of pumps, bottles and reservoirs
+  add(parts.manifolds,
+      LineCount(problem) * (1 + most.compressors) + 32);  // of pumps, bottles and reservoirs
   sum += problem.objective.mass_kg * MostGasKg(problem);
   sum += ObjectiveOf(problem.objective, CustomReservoir(problem, model::kMadeReservoirLargestM3,
                                                         CustomRatingPa(problem)));

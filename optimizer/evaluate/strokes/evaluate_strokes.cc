@@ -12,6 +12,7 @@
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/shared_filling.h"
 #include "optimizer/evaluate/strokes/turn_strokes.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -92,9 +93,10 @@ bool SimulateTogether(const Problem& problem, const Candidate& candidate,
       Keep(strokes.filled_pa[g], stroke.start_pressure_pa);
     }
   }
-  strokes.pump_on_s += state.response.compressor_on_s;
-  strokes.pump_energy_j += state.response.compressor_energy_j;
-  strokes.pump_air_m3 += state.response.compressor_air_m3;
+  // Of several feeds the pumps that run longest count.
+  strokes.pump_on_s = std::max(strokes.pump_on_s, state.response.compressor_on_s);
+  strokes.pump_energy_j += together.feeds * state.response.compressor_energy_j;
+  strokes.pump_air_m3 += together.feeds * state.response.compressor_air_m3;
   return true;
 }
 
@@ -238,23 +240,23 @@ Strokes StrokesOfOwn(const Problem& problem, const Candidate& candidate,
 // One squad after another, straight from the pumps; none works that is not full before its turn is
 // over.
 Strokes DirectStrokes(const Problem& problem, const Candidate& candidate) {
-  const std::vector<Squad> squads = SquadsOf(problem);
-  const std::vector<double> turns_s = DirectTurns(problem);
   Strokes strokes = ToBeKept(problem);
   strokes.works = true;
-  for (std::size_t s = 0; s < squads.size(); ++s) {
-    const auto& [g, count, phase] = squads[s];
+  std::vector<double> on_s(problem.groups.size(), 0.0);  // of each feed of its own pumps
+  for (const FedSquad& fed : FedSquadsOf(problem)) {
+    const int g = fed.squad.group;
     const double strokes_per_period = problem.groups[g].gait.strokes_per_period;
-    const model::PumpStroke stroke = DirectStroke(problem, candidate, g, count);
+    const model::PumpStroke stroke = DirectStroke(problem, candidate, g, fed.count);
     if (!stroke.reached) return NeverFilled(problem);
     Keep(strokes.rise_s[g], stroke.rise_s);
     Keep(strokes.inflate_s[g], stroke.inflate_s);
-    strokes.pump_on_s += strokes_per_period * stroke.inflate_s;
-    strokes.pump_energy_j += strokes_per_period * stroke.pump_energy_j;
-    strokes.pump_air_m3 += strokes_per_period * count / problem.groups[g].count *
+    on_s[fed.feed] += strokes_per_period * stroke.inflate_s;
+    strokes.pump_energy_j += strokes_per_period * fed.feeds * stroke.pump_energy_j;
+    strokes.pump_air_m3 += strokes_per_period * fed.squad.count / problem.groups[g].count *
                            LeastAirPerStroke(problem, g, *candidate.lines[g]);
-    strokes.works = strokes.works && stroke.inflate_s <= turns_s[s];
+    strokes.works = strokes.works && stroke.inflate_s <= fed.turn_s;
   }
+  strokes.pump_on_s = *std::max_element(on_s.begin(), on_s.end());
   return strokes;
 }
 

@@ -6,6 +6,7 @@
 #include "model/flow/series.h"
 #include "model/strokes/stroke.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -42,9 +43,13 @@ std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configurati
 
 std::vector<Together> TogetherOf(const Problem& problem, const Candidate& candidate) {
   const int groups = static_cast<int>(problem.groups.size());
-  if (!HasOwnRegulators(candidate)) return {{0, groups}};
+  const bool own_pumps =
+      IsDirect(candidate.configuration) && problem.pump_feed != PumpFeed::kShared;
+  if (!HasOwnRegulators(candidate) && !own_pumps) return {{0, groups}};
+  const bool each_actuator = own_pumps && problem.pump_feed == PumpFeed::kPerActuator;
   std::vector<Together> each;
-  for (int g = 0; g < groups; ++g) each.push_back({g, g + 1});
+  for (int g = 0; g < groups; ++g)
+    each.push_back({g, g + 1, each_actuator ? problem.groups[g].count : 1});
   return each;
 }
 
@@ -95,7 +100,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     const Line& line = *candidate.lines[g];
     model::GroupRig group;
     group.name = problem.groups[g].name;
-    group.count = count;
+    group.count = count / together.feeds;
     group.chamber = line.chamber;
     group.fill = line.fill;
     group.exhaust = line.exhaust;

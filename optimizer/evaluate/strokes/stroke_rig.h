@@ -46,9 +46,11 @@ bool HasEffects(const Problem& problem);
 // property of a compressor with its own reservoir.
 std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration);
 
-// What is simulated together: all groups, or with regulators of their own one after another.
+// What is simulated together: all groups, or with regulators or pumps of their own one after
+// another.
 struct Together {
   int first = 0, last = 0;  // groups, half-open
+  int feeds = 1;            // of pumps, of which one is simulated (pump_feed.h)
   bool Has(int group) const { return first <= group && group < last; }
 };
 std::vector<Together> TogetherOf(const Problem& problem, const Candidate& candidate);

@@ -228,6 +228,13 @@ std::string ProofText(const Json& answer) {
   return text + LeftOutText(answer) + fmt::format("{:.2f} s\n", answer.at("seconds").get<double>());
 }
 
+std::string HintsText(const Json& answer) {
+  std::string text;
+  for (const auto& hint : answer.value("hints", Json::array()))
+    text += "Hint: " + hint.at("words").get<std::string>() + ".\n";
+  return text;
+}
+
 }  // namespace
 
 std::string DesignText(const Json& answer, bool wide) {
@@ -247,7 +254,7 @@ std::string DesignText(const Json& answer, bool wide) {
   }
   text += GuaranteeText(answer) + FrontText(answer) + RobustText(answer) + PricesText(answer) +
           FlipsText(answer);
-  return text + ProofText(answer) + RemarksText(answer);
+  return text + ProofText(answer) + HintsText(answer) + RemarksText(answer);
 }
 
 std::string WhyNotFirstText(const Json& answer) {

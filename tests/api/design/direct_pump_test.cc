@@ -98,7 +98,13 @@ TEST(DirectPumpTest, NamesWhatIsWrongWithARequest) {
   request["supply"]["pumps"] = "shared";
   EXPECT_EQ(Pointers(request), "");
   request["supply"]["pumps"] = "per_group";
+  EXPECT_EQ(Pointers(request), "");
+  request["duty"]["simultaneous"] = true;  // each by pumps of its own
+  EXPECT_EQ(Pointers(request), "");
+  request["duty"]["simultaneous"] = false;
+  request["supply"]["configurations"] = {"direct_pump", "cylinder"};
   EXPECT_EQ(Pointers(request), "/supply/pumps ");
+  request["supply"]["configurations"] = {"direct_pump"};
   request["supply"]["pumps"] = "each";
   EXPECT_EQ(Pointers(request), "/supply/pumps ");
   request["supply"].erase("pumps");
@@ -108,7 +114,13 @@ TEST(DirectPumpTest, NamesWhatIsWrongWithARequest) {
   request["supply"]["pumps"] = "per_group";
   EXPECT_EQ(Pointers(request), "");
   request["supply"]["pumps"] = "per_actuator";
+  EXPECT_EQ(Pointers(request), "");
+  request["actuators"][0]["phase"] = {0.0, 0.5};
   EXPECT_EQ(Pointers(request), "/supply/pumps ");
+  request["actuators"][0].erase("phase");
+  request["require"]["valve"] = {"koge-ksv05a-pair"};  // would fill, too
+  EXPECT_NE(Pointers(request), "");
+  request.erase("require");
   request["supply"] = {{"configurations", {"cylinder"}}, {"pumps", "shared"}};
   EXPECT_EQ(Pointers(request), "/supply/pumps ");
   request = Asked();
@@ -154,6 +166,114 @@ TEST(DirectPumpTest, ADesignWithALone32IsNamed) {
   for (const Error& error : ErrorsOf(Evaluated(request, design)))
     named = named || error.detail.find("cannot hold") != std::string::npos;
   EXPECT_TRUE(named);
+}
+
+// A kit: a pump and a valve that only vents for each of four fingers.
+Json Kit() {
+  Json request = Example("finger_kit");
+  request["ranking"] = {{"count", 2}, {"list", "combinations"}, {"proof", true}};
+  return request;
+}
+
+const Json& RowOf(const Json& design, const std::string& family) {
+  for (const Json& row : design["parts"])
+    if (row["family"] == family) return row;
+  static const Json kNone;
+  return kNone;
+}
+
+TEST(OwnPumps, OfEachActuatorAreDesignedAndVerified) {
+  const Json answer = Answered(Kit());
+  EXPECT_EQ(answer["status"], "optimal");
+  ASSERT_FALSE(answer["designs"].empty());
+  EXPECT_EQ(Refusals(answer), "");
+  for (const Json& design : answer["designs"]) {
+    const int pumps = RowOf(design, "compressor")["quantity"];
+    EXPECT_EQ(pumps % 4, 0);
+    const auto valve = std::find_if(
+        Project().parts.begin(), Project().parts.end(),
+        [&](const catalog::Part& part) { return part.id == RowOf(design, "valve")["id"]; });
+    EXPECT_EQ(valve->texts.at("function").value, "2/2");
+    EXPECT_EQ(RowOf(design, "manifold")["quantity"], pumps == 4 ? 4 : 8);  // tees
+  }
+}
+
+// One of four equal fingers with pumps of its own is the whole of one alone, four times.
+TEST(OwnPumps, AKitOfFourIsFourKitsOfOne) {
+  Json request = Kit();
+  request["require"]["battery"] = {RowOf(Answered(request)["designs"][0], "battery")["id"]};
+  const Json four = Answered(request)["designs"][0];
+  request["actuators"][0]["count"] = 1;
+  request["require"]["compressor"] = {RowOf(four, "compressor")["id"]};
+  request["require"]["valve"] = {RowOf(four, "valve")["id"]};
+  request["require"]["tubing"] = {RowOf(four, "tubing")["id"]};
+  const Json one = Answered(request)["designs"][0];
+  const auto near = [&](const char* of, const char* field, double times) {
+    const double value = one[of][field];
+    EXPECT_NEAR(four[of][field].get<double>(), times * value, 1e-6 * times * value) << field;
+  };
+  near("totals", "energy_wh", 4.0);
+  near("performance", "air_total_l_anr", 4.0);
+  near("settings", "compressor_duty", 1.0);
+  near("settings", "source_pressure_kpa_gauge", 1.0);
+  const auto mass = [](const Json& design) {
+    return design["totals"]["mass_kg"].get<double>() -
+           RowOf(design, "battery")["mass_kg"].get<double>();
+  };
+  EXPECT_NEAR(mass(four), 4.0 * mass(one), 1e-9);
+}
+
+TEST(OwnPumps, VerifyRefusesWhatIsTamperedWith) {
+  const Tampering kTamperings[] = {{"one pump for all", "parts",
+                                    [](Json& a) {
+                                      for (Json& row : a["designs"][0]["parts"])
+                                        if (row["family"] == "compressor") row["quantity"] = 1;
+                                    }},
+                                   {"a quarter of the energy", "strokes",
+                                    [](Json& a) {
+                                      Json& energy = a["designs"][0]["totals"]["energy_wh"];
+                                      energy = 0.25 * energy.get<double>();
+                                    }},
+                                   {"no tees", "parts", [](Json& a) {
+                                      Json& parts = a["designs"][0]["parts"];
+                                      for (std::size_t i = parts.size(); i-- > 0;)
+                                        if (parts[i]["family"] == "manifold") parts.erase(i);
+                                    }}};
+  ExpectRefused(Answered(Kit()), kTamperings);
+}
+
+TEST(OwnPumps, OfEachGroupMayFillAtOnce) {
+  Json request = Asked(2);
+  request["supply"]["pumps"] = "per_group";
+  const Json in_turn = Answered(request);
+  request["duty"]["simultaneous"] = true;
+  const Json at_once = Answered(request);
+  for (const Json* answer : {&in_turn, &at_once}) {
+    EXPECT_EQ((*answer)["status"], "optimal");
+    EXPECT_EQ(Refusals(*answer), "");
+    EXPECT_EQ(RowOf((*answer)["designs"][0], "compressor")["quantity"].get<int>() % 2, 0);
+  }
+  // Both pumps at once ask more of a battery, and of nothing else.
+  EXPECT_LE(in_turn["designs"][0]["objective"], at_once["designs"][0]["objective"]);
+}
+
+TEST(OwnPumps, AGivenDesignIsCheckedForItsNumberAndItsValves) {
+  const Json request = Kit();
+  Json design = Answered(request)["designs"][0];
+  EXPECT_EQ(std::get<Json>(Evaluated(request, design))["works"], true);
+  const auto said = [&](const Json& changed) {
+    std::string all;
+    for (const Error& error : ErrorsOf(Evaluated(request, changed))) all += error.detail + "\n";
+    return all;
+  };
+  Json few = design;
+  for (Json& row : few["parts"])
+    if (row["family"] == "compressor") row["quantity"] = 3;
+  EXPECT_NE(said(few).find("must be 4, or a multiple of it"), std::string::npos) << said(few);
+  Json pair = design;
+  for (Json& row : pair["parts"])
+    if (row["family"] == "valve") row["id"] = row["id"].get<std::string>() + "-pair";
+  EXPECT_NE(said(pair).find("has a way for filling, too"), std::string::npos) << said(pair);
 }
 
 }  // namespace

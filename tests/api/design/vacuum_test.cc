@@ -210,6 +210,17 @@ TEST(VacuumTest, NamesWhatIsWrongWithARequest) {
             "/supply/vacuum/configurations/0 ");
   EXPECT_EQ(with([](Json& r, Json&) { r["supply"]["vacuum"]["configurations"] = {"hose"}; }),
             "/supply/vacuum/configurations/0 ");
+  EXPECT_EQ(with([](Json& r, Json&) { r["supply"]["vacuum"]["configurations"] = {"mains"}; }),
+            "/supply/vacuum/mains ");
+  const auto from_wall = [&](double kpa) {
+    return with([&](Json& r, Json&) {
+      r["supply"]["vacuum"] = {{"configurations", {"mains"}},
+                               {"mains", {{"pressure_kpa_gauge", kpa}}}};
+    });
+  };
+  EXPECT_EQ(from_wall(-80.0), "");
+  EXPECT_EQ(from_wall(-50.0), operating);
+  EXPECT_EQ(from_wall(80.0), "/supply/vacuum/mains/pressure_kpa_gauge ");
   EXPECT_EQ(with([](Json& r, Json&) { r["guarantee"] = true; }), "");
   EXPECT_EQ(with([](Json& r, Json& bag) {
               r["guarantee"] = true;

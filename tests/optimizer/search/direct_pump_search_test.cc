@@ -114,6 +114,58 @@ TEST(DirectPumpSearch, ThreeGroups) {
   EXPECT_GT(tally.feasible, 1);
 }
 
+// Pumps of their own, of which groups may fill at once.
+Problem WithOwnPumps(Problem problem, optimizer::PumpFeed feed) {
+  problem.pump_feed = feed;
+  if (feed == optimizer::PumpFeed::kPerActuator)
+    for (optimizer::ActuatorGroup& group : problem.groups) group.fed_past_valve = true;
+  return problem;
+}
+
+TEST(DirectPumpSearch, PumpsOfEachGroup) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = WithOwnPumps(Drawn(300 + seed, 2), optimizer::PumpFeed::kPerGroup);
+    problem.simultaneous = seed % 2 == 0;
+    problem.limits.batteries = 2;
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 6);
+}
+
+TEST(DirectPumpSearch, PumpsOfEachActuator) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+    SCOPED_TRACE(seed);
+    const int groups = seed % 3 == 0 ? 2 : 1;
+    Problem problem = WithOwnPumps(Drawn(600 + seed, groups), optimizer::PumpFeed::kPerActuator);
+    problem.simultaneous = seed % 2 == 0;
+    problem.limits.batteries = 2;
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 12);
+}
+
+// A pump of each of two groups of one actuator is a pump of each actuator but for the valve, and a
+// pump of one group is a shared one.
+TEST(DirectPumpSearch, PumpsOfOneGroupAreShared) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const Problem shared = Drawn(100 + seed);
+    const Answer one = optimizer::SearchTrees(shared, Within(60.0));
+    const Answer other =
+        optimizer::SearchTrees(WithOwnPumps(shared, optimizer::PumpFeed::kPerGroup), Within(60.0));
+    EXPECT_EQ(one.status, other.status);
+    ASSERT_EQ(one.designs.size(), other.designs.size());
+    for (std::size_t i = 0; i < one.designs.size(); ++i, ++found)
+      EXPECT_NEAR(one.designs[i].objective, other.designs[i].objective,
+                  1e-9 * one.designs[i].objective);
+  }
+  EXPECT_GT(found, 10);
+}
+
 // Groups that are to fill at once have no such design.
 TEST(DirectPumpSearch, NoneForGroupsAtOnce) {
   Problem problem = Drawn(301, 2);

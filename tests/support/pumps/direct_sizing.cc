@@ -182,16 +182,48 @@ std::vector<Fills> FillsOf(const Problem& problem) {
 }
 
 // Share of the period until any other begins, or 0 where one begins at the same time.
-double ShareUntilNext(const std::vector<Fills>& all, const Fills& one) {
+double ShareUntilNext(const Problem& problem, const std::vector<Fills>& all, const Fills& one) {
   double least = 1.0;
-  for (const Fills& other : all)
+  for (const Fills& other : all) {
+    if (&other != &one && !OnSamePumps(problem, one, other)) continue;
     for (const double next : other.begins)
       for (const double begin : one.begins) {
         if (&other == &one && next == begin) continue;
         const double share = std::fmod(next - begin + 1.0, 1.0);
         least = std::min(least, share < 1e-9 || share > 1.0 - 1e-9 ? 0.0 : share);
       }
+  }
   return least;
+}
+
+// Whether the same pumps fill both.
+bool OnSamePumps(const Problem& problem, const Fills& a, const Fills& b) {
+  return problem.pump_feed == optimizer::PumpFeed::kShared ||
+         (problem.pump_feed == optimizer::PumpFeed::kPerGroup && a.group == b.group);
+}
+
+// Most pumps of their own that are on at once, where each is for the whole of its window; looked
+// for at many times of the period.
+int RunningAtOnce(const Problem& problem, const std::vector<Fills>& all) {
+  if (problem.pump_feed == optimizer::PumpFeed::kShared) return 1;
+  constexpr int kTimes = 20'000;
+  int most = 0;
+  for (int i = 0; i < kTimes; ++i) {
+    std::vector<int> of_group(problem.groups.size(), 0);
+    for (const Fills& fills : all) {
+      const optimizer::Gait& gait = problem.groups[fills.group].gait;
+      const double window = gait.inflate_fraction / gait.strokes_per_period;
+      for (const double begin : fills.begins)
+        if (std::fmod((i + 0.5) / kTimes - begin + 1.0, 1.0) < window)
+          of_group[fills.group] +=
+              problem.pump_feed == optimizer::PumpFeed::kPerActuator ? fills.count : 1;
+    }
+    int running = 0;
+    for (const int one : of_group)
+      running += problem.pump_feed == optimizer::PumpFeed::kPerGroup ? std::min(one, 1) : one;
+    most = std::max(most, running);
+  }
+  return most;
 }
 
 double MostCurrent(const model::CompressorCurve& curve, double low_pa, double high_pa) {
@@ -212,7 +244,9 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
   const std::vector<Fills> fills = FillsOf(problem);
   const model::Compressor& pump = PumpsOf(problem)[candidate.compressor.index];
   const model::Battery& pack = problem.parts.batteries[candidate.battery.index];
-  double on_s = 0.0, per_cycle_j = 0.0, coil_w = 0.0, highest_pa = problem.ambient.pressure_pa;
+  std::vector<double> on_s(candidate.lines.size(), 0.0);  // of each group's pumps; [0]: of all
+  const bool shared = problem.pump_feed == optimizer::PumpFeed::kShared;
+  double per_cycle_j = 0.0, coil_w = 0.0, highest_pa = problem.ambient.pressure_pa;
   optimizer::Amounts sum;
   std::vector<double> slowest_s(candidate.lines.size(), 0.0);
   for (std::size_t f = 0; f < fills.size(); ++f) {
@@ -220,18 +254,20 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
     const optimizer::Gait& gait = problem.groups[g].gait;
     const double stroke_s = period_s / gait.strokes_per_period;
     const double open_s = gait.inflate_fraction * stroke_s;
-    const double turn_s = std::min(open_s, ShareUntilNext(fills, fills[f]) * period_s);
+    const double turn_s = std::min(open_s, ShareUntilNext(problem, fills, fills[f]) * period_s);
     const Line& line = *candidate.lines[g];
     const model::Valve& valve = problem.parts.valves[line.valve];
     if (valve.kind == model::ValveKind::kThreeWay ||
         valve.pressure_min_pa > problem.ambient.pressure_pa ||
         line.fall_time_s > std::min(stroke_s - open_s, problem.groups[g].fall_time_max_s))
       return leaf;
-    const Filled& filled = Known(f, FillingOf(problem, candidate, g, fills[f].count));
+    const bool each = problem.pump_feed == optimizer::PumpFeed::kPerActuator;
+    const int times = each ? fills[f].count : 1;
+    const Filled& filled = Known(f, FillingOf(problem, candidate, g, fills[f].count / times));
     if (filled.inflate_s > turn_s || filled.rise_s > problem.groups[g].rise_time_max_s) return leaf;
     highest_pa = std::max(highest_pa, filled.highest_pa);
-    on_s += gait.strokes_per_period * filled.inflate_s;
-    per_cycle_j += gait.strokes_per_period * filled.pump_j;
+    on_s[shared ? 0 : g] += gait.strokes_per_period * filled.inflate_s;
+    per_cycle_j += times * gait.strokes_per_period * filled.pump_j;
     slowest_s[g] = std::max(slowest_s[g], filled.inflate_s);
   }
   for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
@@ -239,19 +275,22 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
     const optimizer::Gait& gait = problem.groups[g].gait;
     const double vent_s = (1.0 - gait.inflate_fraction) * period_s;
     if (highest_pa > line.source_max_pa) return leaf;
-    per_cycle_j += line.coil_power_w * (vent_s + gait.strokes_per_period * slowest_s[g]);
+    const bool past_valve = problem.pump_feed == optimizer::PumpFeed::kPerActuator;
+    const double filling_s = past_valve ? 0.0 : gait.strokes_per_period * slowest_s[g];
+    per_cycle_j += line.coil_power_w * (vent_s + filling_s);
     coil_w += line.coil_power_w;
     sum += line.amounts;
   }
   sum += candidate.compressor.amounts;
   sum += candidate.battery.amounts;
   const double packs = candidate.battery.quantity;
-  const double current_a = candidate.compressor.quantity *
+  const double current_a = RunningAtOnce(problem, fills) * candidate.compressor.quantity *
                                MostCurrent(pump.curve, problem.ambient.pressure_pa, highest_pa) +
                            coil_w / pack.nominal_voltage_v;
   const double energy_j = problem.actuations * per_cycle_j;
   const bool bears =
-      highest_pa <= problem.source_pressure_max_pa && on_s <= pump.duty_max * period_s &&
+      highest_pa <= problem.source_pressure_max_pa &&
+      *std::max_element(on_s.begin(), on_s.end()) <= pump.duty_max * period_s &&
       energy_j <= packs * pack.capacity_ah * kJoulePerWattHour * pack.nominal_voltage_v * 0.8 &&
       current_a <= packs * pack.current_max_a && sum.mass_kg <= problem.mass_max_kg &&
       sum.volume_m3 * 1e3 <= problem.volume_max_l && sum.cost_eur <= problem.cost_max_eur;

@@ -63,7 +63,8 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
     const double coil_w = problem.groups[g].count * valve.coil_power_w;
     cycle.coil_w += coil_w;
     cycle.steady_j += coil_w * CoilSeconds(problem, g, holds);
-    if (holds) cycle.inflating_j += strokes * coil_w * cycle.inflate_s[g];
+    if (holds && !problem.groups[g].fed_past_valve)
+      cycle.inflating_j += strokes * coil_w * cycle.inflate_s[g];
   }
   for (const model::Regulator* regulator : assembly.regulators) {
     cycle.coil_w += regulator->electrical_power_w;
@@ -166,14 +167,17 @@ double Target(const Problem& problem, const ActuatorGroup& group, double fractio
 
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop) {
-  if (assembly.owns()) {
+  const bool own_pumps = problem.pump_feed != PumpFeed::kShared;
+  if (assembly.owns() || own_pumps) {
     std::vector<std::optional<Cycle>> cycles;
+    std::vector<int> feeds;
     for (int g = 0; g < static_cast<int>(assembly.lines.size()); ++g) {
       const Alone alone = AloneOf(problem, assembly, g);
       cycles.push_back(
           Simulated(alone.problem, AloneAt(PressureAt(settings, g)), alone.assembly, 0.0, stop));
+      feeds.push_back(alone.feeds);
     }
-    return Joined(cycles);
+    return Joined(cycles, feeds);
   }
   return Simulated(problem, settings, assembly,
                    settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread(), stop);
@@ -313,10 +317,13 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   Cycle cycle = EmptyCycle(problem_);
   cycle.fall_s = fall_s_;
   double tank_pa = IsOpen(assembly_) ? LastStart(problem_, settings, assembly_) : 0.0;
+  const bool own_pumps = problem_.pump_feed != PumpFeed::kShared;
+  std::vector<double> on_s(problem_.groups.size(), 0.0);  // of each feed of pumps
   for (int u = 0; u < static_cast<int>(units_.size()); ++u) {
     if (assembly_.direct()) {  // what is not over when its turn is over is refused (verify_size.h)
-      (direct_fills_ ? *direct_fills_ : own_fills_)
-          .Add(problem_, assembly_, units_[u], fills_[u], cycle);
+      on_s[own_pumps ? units_[u].group : 0] +=
+          (direct_fills_ ? *direct_fills_ : own_fills_)
+              .Add(problem_, assembly_, units_[u], fills_[u], cycle);
       continue;
     }
     const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, u, cycle)
@@ -325,6 +332,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
     if (units_.size() > 1 && !(over_s <= UntilNext(problem_, units_, units_[u])))
       return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   }
+  if (assembly_.direct()) cycle.pump_on_s = *std::max_element(on_s.begin(), on_s.end());
   FillOpenOnes(problem_, settings, assembly_, cycle);
   AddNeeds(problem_, assembly_, cycle);
   return cycle;

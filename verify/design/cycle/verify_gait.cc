@@ -23,6 +23,18 @@ bool SameWindows(const Problem& problem, int a, int b) {
          Strokes(problem, a) == Strokes(problem, b);
 }
 
+bool OnOneFeed(const Problem& problem, const Unit& a, const Unit& b) {
+  switch (problem.pump_feed) {
+    case PumpFeed::kShared:
+      return true;
+    case PumpFeed::kPerGroup:
+      return a.group == b.group;
+    case PumpFeed::kPerActuator:
+      return false;
+  }
+  return true;
+}
+
 bool BeginTogether(const Unit& a, const Unit& b) {
   return std::any_of(a.begins.begin(), a.begins.end(), [&](double at) {
     return std::any_of(b.begins.begin(), b.begins.end(),
@@ -51,6 +63,7 @@ std::vector<Unit> UnitsOf(const Problem& problem) {
         unit.begins.push_back(
             Around(0.0, static_cast<double>(phase) * kOne + k / Strokes(problem, g)));
       std::sort(unit.begins.begin(), unit.begins.end());
+      if (problem.pump_feed == PumpFeed::kPerActuator) unit.feeds = count;
       units.push_back(std::move(unit));
     }
   }
@@ -70,8 +83,36 @@ double UntilNext(const Problem& problem, const std::vector<Unit>& units, const U
   for (const Unit& other : units)
     for (const double at : unit.begins)
       for (const double begin : other.begins)
-        if (&other != &unit) least = std::min(least, Around(at, begin));
+        if (&other != &unit && OnOneFeed(problem, unit, other))
+          least = std::min(least, Around(at, begin));
   return least / problem.frequency_hz;
+}
+
+int Feeds(const Problem& problem) {
+  int feeds = 0;
+  for (const ActuatorGroup& group : problem.groups)
+    feeds += problem.pump_feed == PumpFeed::kPerActuator ? group.count : 1;
+  return problem.pump_feed == PumpFeed::kShared ? 1 : feeds;
+}
+
+int TimesBought(const Problem& problem, Family family) {
+  return family == Family::kCompressor || family == Family::kVacuumPump ? Feeds(problem) : 1;
+}
+
+int FeedsRunning(const Problem& problem) {
+  const std::vector<Unit> units = UnitsOf(problem);
+  int most = 0;
+  for (const Unit& one : units)
+    for (const double now : one.begins) {
+      int running = 0;
+      for (const Unit& unit : units) {
+        const double window = FillWindow(problem, unit.group) * problem.frequency_hz;
+        for (const double at : unit.begins)
+          if (Around(at, now) < window - kOne) running += unit.feeds;
+      }
+      most = std::max(most, running);
+    }
+  return std::min(most, Feeds(problem));
 }
 
 int MostAtOnce(const Problem& problem, int group) {
@@ -99,7 +140,8 @@ bool SomeAtOnce(const Problem& problem) {
   const std::vector<Unit> units = UnitsOf(problem);
   for (const Unit& unit : units)
     for (const Unit& other : units)
-      if (&unit != &other && BeginTogether(unit, other)) return true;
+      if (&unit != &other && OnOneFeed(problem, unit, other) && BeginTogether(unit, other))
+        return true;
   return false;
 }
 

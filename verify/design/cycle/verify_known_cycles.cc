@@ -15,7 +15,7 @@ const std::optional<Cycle>& KnownCycles::AtGroups(const std::vector<double>& gro
   std::vector<std::optional<Cycle>> cycles;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     cycles.push_back(groups_[g]->cycles.At(AloneAt(group_pressure_pa[g]), 0.0));
-  return entry->second = Joined(cycles);
+  return entry->second = Joined(cycles, std::vector<int>(cycles.size(), 1));
 }
 
 }  // namespace plenum::verify

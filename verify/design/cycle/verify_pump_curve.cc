@@ -127,7 +127,8 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   const double target_pa = ambient_pa + problem.rise_fraction * (operating_pa - ambient_pa);
   const double air_per_content = model::StandardVolume(1.0, problem.ambient.temperature_k);
   const double mirror_pa = model::MirrorPa(chamber);
-  const double end_pa = NodePressure(assembly, fill, mirror_pa, unit.count, operating_pa);
+  const int count = unit.count / unit.feeds;  // of one feed
+  const double end_pa = NodePressure(assembly, fill, mirror_pa, count, operating_pa);
   Fill found;
   found.node_pa = end_pa;
   if (!std::isfinite(end_pa) || !(DeliveryUpToTheEnd(curve, end_pa) > 0.0)) return found;
@@ -135,10 +136,10 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   const auto panel = [&](double from_pa, double to_pa) {
     for (int i = 0; i < 3; ++i) {
       const double p = 0.5 * (from_pa + to_pa) + 0.5 * (to_pa - from_pa) * kGaussNodes[i];
-      const double node_pa = NodePressure(assembly, fill, mirror_pa, unit.count, p);
+      const double node_pa = NodePressure(assembly, fill, mirror_pa, count, p);
       const double flow = std::min(assembly.compressors * DeliveryUpToTheEnd(curve, node_pa),
-                                   unit.count * model::FlowBetween(fill, mirror_pa, node_pa, p));
-      const double time = 0.5 * (to_pa - from_pa) * kGaussWeights[i] * unit.count *
+                                   count * model::FlowBetween(fill, mirror_pa, node_pa, p));
+      const double time = 0.5 * (to_pa - from_pa) * kGaussWeights[i] * count *
                           model::ContentSlope(chamber, p) * air_per_content / flow;
       seconds += time;
       joules += time * assembly.compressors * model::ElectricalPower(curve, node_pa);
@@ -162,21 +163,21 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   return found;
 }
 
-void DirectFills::Add(const Problem& problem, const Assembly& assembly, const Unit& unit,
-                      const model::Series& fill, Cycle& cycle) {
+double DirectFills::Add(const Problem& problem, const Assembly& assembly, const Unit& unit,
+                        const model::Series& fill, Cycle& cycle) {
   const int g = unit.group;
   const double strokes = problem.groups[g].gait.strokes_per_period;
   const LineParts& line = assembly.lines[g];
   const auto [entry, fresh] =
-      known_.try_emplace({g, unit.count, line.tube, line.fitting, line.valve, assembly.compressor,
-                          assembly.compressors});
+      known_.try_emplace({g, unit.count / unit.feeds, line.tube, line.fitting, line.valve,
+                          assembly.compressor, assembly.compressors});
   if (fresh) entry->second = Make(problem, assembly, unit, fill);
   const Fill& found = entry->second;
   cycle.rise_s[g] = std::max(cycle.rise_s[g], found.rise_s);
   cycle.inflate_s[g] = std::max(cycle.inflate_s[g], found.inflate_s);
-  cycle.pump_on_s += strokes * found.inflate_s;
-  cycle.pump_j += strokes * found.pump_j;
+  cycle.pump_j += strokes * unit.feeds * found.pump_j;
   cycle.node_pa = std::max(cycle.node_pa, found.node_pa);
+  return strokes * found.inflate_s;
 }
 
 }  // namespace plenum::verify

@@ -44,8 +44,8 @@ double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>&
 class DirectFills {
  public:
   // Adds the strokes of a unit, whose lines are `fill`.
-  void Add(const Problem& problem, const Assembly& assembly, const Unit& unit,
-           const model::Series& fill, Cycle& cycle);
+  double Add(const Problem& problem, const Assembly& assembly, const Unit& unit,
+             const model::Series& fill, Cycle& cycle);
 
  private:
   struct Fill {

@@ -57,9 +57,13 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, cons
   std::vector<model::FlowElement>&inward = rig.chamber.evacuated ? rig.exhaust : rig.fill,
   &outward = rig.chamber.evacuated ? rig.fill : rig.exhaust;
   inward = between;
-  inward.insert(inward.begin(), rig.chamber.evacuated ? line.valve->exhaust : line.valve->fill);
+  // A valve that only vents is not on the way from the pumps.
+  const auto clear = [&](bool fills) { return fills && group.fed_past_valve; };
+  if (!clear(!rig.chamber.evacuated))
+    inward.insert(inward.begin(), rig.chamber.evacuated ? line.valve->exhaust : line.valve->fill);
   outward.assign(between.rbegin(), between.rend());
-  outward.push_back(rig.chamber.evacuated ? line.valve->fill : line.valve->exhaust);
+  if (!clear(rig.chamber.evacuated))
+    outward.push_back(rig.chamber.evacuated ? line.valve->fill : line.valve->exhaust);
   rig.close_at_operating = model::Holds(line.valve->kind);
   rig.initial_pressure_pa = pressure_pa;
   rig.schedule = Commands(problem, unit, rig.close_at_operating, cycles);

@@ -1,8 +1,9 @@
 // A design as a simulation/1 request: the same line, source and schedule that its ranking used.
 import { loadPart, numberOf } from './catalogue';
 import { type Change, changed, groupPressures } from './evaluation';
+import { feedOf, feedsOf } from './pumps';
 import type { Design, Effect, Group, Part, Requirements, Response } from './types';
-import { isDirect } from './vacuum';
+import { areEvacuated, isDirect } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -37,7 +38,7 @@ export function lineOf(design: Design, group: Group) {
   };
 }
 
-// What feeds all groups, or one behind a regulator of its own, by its place.
+// What feeds all groups, or one behind a regulator or on pumps of its own, by its place.
 function sourceOf(
   design: Design,
   requirements: Requirements,
@@ -54,7 +55,7 @@ function sourceOf(
         pressure_kpa_gauge: share * pressure_kpa_gauge,
         free_air_l_per_min: share * free_air_l_per_min,
       })),
-      count: pump.quantity,
+      count: pump.quantity / feedsOf(requirements),
     };
     if (isDirect(design.configuration)) return { kind: design.configuration, ...pumps };
     return {
@@ -77,7 +78,7 @@ function sourceOf(
   const flows = [
     regulator ? numberOf(regulator, 'flow_max_l_per_min_anr') : null,
     design.configuration === 'mains'
-      ? (requirements.supply?.mains?.flow_l_per_min_anr_max ?? null)
+      ? (wallOf(requirements)?.flow_l_per_min_anr_max ?? null)
       : null,
   ].filter((flow): flow is number => flow !== null);
   return {
@@ -93,6 +94,9 @@ function sourceOf(
     ...(flows.length > 0 && { flow_l_per_min_anr_max: Math.min(...flows) }),
   };
 }
+
+const wallOf = (requirements: Requirements) =>
+  areEvacuated(requirements) ? requirements.supply?.vacuum?.mains : requirements.supply?.mains;
 
 const nameOf = (requirements: Requirements, g: number) =>
   requirements.actuators[g]!.name ?? `group ${g + 1}`;
@@ -141,7 +145,7 @@ export const chamberOf = (group: Group) => ({
   operating_pressure_kpa_gauge: group.operating_pressure_kpa_gauge,
 });
 
-// One request, or where each group has a regulator of its own one of each.
+// One request, or where each group has a regulator or pumps of its own one of each.
 export function simulationsOf(
   design: Design,
   asked: Requirements,
@@ -150,8 +154,8 @@ export function simulationsOf(
   cycles: number,
   effects: Effect[] = [],
 ): unknown[] {
-  const each = design.settings.group_pressure_kpa_gauge;
-  const places = each ? each.map((_, g) => g) : [null];
+  const each = design.settings.group_pressure_kpa_gauge || feedOf(asked) !== 'shared';
+  const places = each ? asked.actuators.map((_, g) => g) : [null];
   return places.map((own) => simulationOf(design, asked, parts, change, cycles, effects, own));
 }
 
@@ -199,7 +203,7 @@ function simulationOf(
       const valve = parts.get(rowOf(design, 'valve', group.name)?.id ?? '');
       return {
         name,
-        count,
+        count: feedOf(requirements) === 'per_actuator' ? 1 : count,
         ...chamberOf(group),
         close_at_operating_pressure: valve?.function !== '3/2',
         line: lineOf(design, group),

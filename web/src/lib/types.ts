@@ -39,6 +39,11 @@ export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 export type Trust = 'measured' | 'datasheet' | 'third_party' | 'derived' | 'estimated';
 
 export type Regulation = 'shared' | 'per_group' | 'any';
+export interface Mains {
+  pressure_kpa_gauge: number;
+  flow_l_per_min_anr_max?: number;
+}
+export type PumpFeed = 'shared' | 'per_group' | 'per_actuator';
 export type PowerKind = 'battery' | 'wall' | 'robot';
 
 export interface Requirements {
@@ -51,10 +56,14 @@ export interface Requirements {
   fall?: { to_fraction: number };
   supply?: {
     configurations?: Configuration[];
-    mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
-    pumps?: 'shared' | 'per_group';
+    mains?: Mains;
+    pumps?: PumpFeed;
     regulation?: Regulation;
-    vacuum?: { configurations?: string[]; vacuum_kpa_gauge_min?: number | null };
+    vacuum?: {
+      configurations?: string[];
+      vacuum_kpa_gauge_min?: number | null;
+      mains?: Mains;
+    };
     source_pressure_kpa_gauge_max?: number | null;
     tank_fill_kpa_gauge_max?: number | null;
     mass_kg_max?: number | null;
@@ -282,6 +291,7 @@ export interface Answer extends Remarked {
   orderable?: Best;
   price_basis?: 'known' | 'lower_bound';
   left_out?: Record<string, string[] | Record<string, number>>;
+  hints?: { configuration: Configuration; objective: number; words: string }[];
   best_on_measured_flow: number | null;
   proof: Proof;
   front?: { objectives: Partial<Record<Amount, number>>; rank: number }[];

@@ -13,8 +13,22 @@ export const isDirect = (configuration: Configuration): boolean =>
 export const hasReservoir = (configuration: Configuration): boolean =>
   configuration === 'compressor' || configuration === 'vacuum_pump';
 
+// What evacuates, as far as the request says: pumps, the wall.
+export const vacuumSources = (requirements: Requirements): string[] =>
+  requirements.supply?.vacuum?.configurations ?? ['pump'];
+
 // What a request may be answered with, as far as it says.
-export const kindsAsked = (requirements: Requirements): Configuration[] =>
-  areEvacuated(requirements)
+export function kindsAsked(requirements: Requirements): Configuration[] {
+  const { supply } = requirements;
+  if (!areEvacuated(requirements))
+    return supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
+  const shared = (supply?.pumps ?? 'shared') === 'shared';
+  const sources = vacuumSources(requirements);
+  const pumps: Configuration[] = shared
     ? ['vacuum_pump', 'direct_vacuum_pump']
-    : (requirements.supply?.configurations ?? ['cylinder', 'co2', 'compressor']);
+    : ['direct_vacuum_pump'];
+  return [
+    ...(sources.includes('pump') ? pumps : []),
+    ...(sources.includes('mains') ? (['mains'] as Configuration[]) : []),
+  ];
+}

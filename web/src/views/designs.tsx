@@ -191,6 +191,11 @@ function Headline({ answer, saved, id }: { answer: Answer; saved: Answer; id: st
           <span class="muted">Every design listed has a flow number that is an estimate.</span>
         )}
       </p>
+      {(answer.hints ?? []).map(({ configuration, words }) => (
+        <p key={configuration} class="hint">
+          Not asked for: {words}.
+        </p>
+      ))}
       <MovedOn answer={answer} />
     </div>
   );

@@ -2,6 +2,7 @@
 import { short } from '../lib/format';
 import type { Configuration, Group, Requirements } from '../lib/types';
 import { toShown, unitOf } from '../lib/units';
+import { feedOf } from '../lib/pumps';
 import { hasReservoir, isDirect, isEvacuated, kindsAsked } from '../lib/vacuum';
 
 const names: Record<Configuration, string> = {
@@ -93,6 +94,7 @@ export const place = (x: number, y: number) => `translate(${x} ${y})`;
 
 export function Drawing({ requirements }: { requirements: Requirements }) {
   const kinds = kindsAsked(requirements);
+  const own = feedOf(requirements) !== 'shared' && kinds.length === 1; // pumps in each row
   const groups = requirements.actuators;
   const rows = Math.max(kinds.length, groups.length, 1);
   const step = 92;
@@ -101,10 +103,12 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
   const yOf = (i: number, n: number) => height / 2 + (i - (n - 1) / 2) * step;
   const bus = 146;
   const largest = Math.max(...groups.map(volumeOf));
-  const ends = [
-    ...kinds.map((_, i) => yOf(i, kinds.length)),
-    ...groups.map((_, i) => yOf(i, groups.length)),
-  ];
+  const ends = own
+    ? []
+    : [
+        ...kinds.map((_, i) => yOf(i, kinds.length)),
+        ...groups.map((_, i) => yOf(i, groups.length)),
+      ];
   return (
     <svg
       class="drawing"
@@ -115,7 +119,7 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
       {ends.length > 0 && (
         <path class="pipe" d={`M${bus} ${Math.min(...ends)} V${Math.max(...ends)}`} />
       )}
-      {kinds.map((kind, i) => {
+      {(own ? [] : kinds).map((kind, i) => {
         const y = yOf(i, kinds.length);
         return (
           <g key={kind}>
@@ -145,7 +149,17 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
         const fall = group.fall_time_s_max;
         return (
           <g key={i}>
-            <path class="pipe" d={`M${bus} ${y} H330`} />
+            <path class="pipe" d={`M${own ? 34 : bus} ${y} H330`} />
+            {own && (
+              <>
+                <g transform={place(34, y)} class="sign source">
+                  <SourceSign kind={kinds[0]!} />
+                </g>
+                <text x="34" y={y + 27}>
+                  {feedOf(requirements) === 'per_actuator' ? 'pump each' : names[kinds[0]!]}
+                </text>
+              </>
+            )}
             <g transform={place(178, y)} class="sign">
               <Valve />
             </g>

@@ -1,7 +1,7 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
 import { edit, errorAt, numbers, requirements } from '../lib/requirements';
-import type { Configuration, PowerKind, Regulation } from '../lib/types';
-import { areEvacuated } from '../lib/vacuum';
+import type { Configuration, PowerKind, PumpFeed, Regulation } from '../lib/types';
+import { areEvacuated, vacuumSources } from '../lib/vacuum';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 
@@ -30,15 +30,48 @@ export function Supply() {
     if (name === 'tank' && !on) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
     if (name === 'direct_pump' && !on) edit(['supply', 'pumps'], undefined);
   };
-  const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
+  const wrong =
+    errorAt('/supply/configurations') ??
+    errorAt('/supply/mains') ??
+    errorAt('/supply/pumps') ??
+    errorAt('/supply/vacuum');
   const vacuum = areEvacuated(numbers.value);
+  const evacuating = vacuumSources(requirements.value);
+  const evacuateBy = (source: string, on: boolean) => {
+    edit(
+      ['supply', 'vacuum', 'configurations'],
+      ['pump', 'mains'].filter((one) => (one === source ? on : evacuating.includes(one))),
+    );
+    if (source === 'mains')
+      edit(['supply', 'vacuum', 'mains'], on ? { pressure_kpa_gauge: -80 } : undefined);
+  };
   return (
     <Panel title="Supply">
       {vacuum && (
-        <p class="hint">
-          Operating pressures below ambient: vacuum pumps, with a reservoir or straight to the
-          actuators.
-        </p>
+        <>
+          <p class="hint">
+            Operating pressures below ambient: vacuum pumps, with a reservoir or straight to the
+            actuators, or a vacuum from the wall.
+          </p>
+          <div
+            class="checks"
+            role="group"
+            aria-label="Kinds of vacuum to consider"
+            data-pointer="/supply/vacuum/configurations"
+            tabIndex={-1}
+          >
+            <Check
+              label="Vacuum pump"
+              checked={evacuating.includes('pump')}
+              onChange={(on) => evacuateBy('pump', on)}
+            />
+            <Check
+              label="Vacuum from the wall"
+              checked={evacuating.includes('mains')}
+              onChange={(on) => evacuateBy('mains', on)}
+            />
+          </div>
+        </>
       )}
       {!vacuum && (
         <div
@@ -59,6 +92,25 @@ export function Supply() {
         </div>
       )}
       {wrong && <p class="error">{wrong}</p>}
+      {(vacuum || chosen.includes('direct_pump')) && (
+        <Segmented<PumpFeed>
+          label="Pumps without a reservoir"
+          options={[
+            { value: 'shared', label: 'for all' },
+            { value: 'per_group', label: 'for each group' },
+            { value: 'per_actuator', label: 'for each actuator' },
+          ]}
+          value={supply.pumps ?? 'shared'}
+          onChange={(pumps) => {
+            edit(['supply', 'pumps'], pumps === 'shared' ? undefined : pumps);
+            if (pumps !== 'shared' && !vacuum) {
+              edit(['supply', 'configurations'], ['direct_pump']);
+              edit(['supply', 'mains'], undefined);
+              edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
+            }
+          }}
+        />
+      )}
       <Segmented<PowerKind>
         label="Power from"
         options={[
@@ -124,6 +176,23 @@ export function Supply() {
               unit="L/min ANR"
               optional
               path={['supply', 'mains', 'flow_l_per_min_anr_max']}
+              hint="at 100 kPa and 20 °C"
+            />
+          </>
+        )}
+        {vacuum && supply.vacuum?.mains && (
+          <>
+            <RequirementField
+              label="Vacuum of the wall"
+              kind="pressure"
+              path={['supply', 'vacuum', 'mains', 'pressure_kpa_gauge']}
+              range={[-100, -1]}
+            />
+            <RequirementField
+              label="Its flow, at most"
+              unit="L/min ANR"
+              optional
+              path={['supply', 'vacuum', 'mains', 'flow_l_per_min_anr_max']}
               hint="at 100 kPa and 20 °C"
             />
           </>

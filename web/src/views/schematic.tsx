@@ -4,6 +4,7 @@ import { rowOf } from '../lib/rig';
 import type { Design, PartRow, Requirements } from '../lib/types';
 import { shown } from '../lib/format';
 import { unitOf } from '../lib/units';
+import { feedOf } from '../lib/pumps';
 import { hasReservoir, isDirect } from '../lib/vacuum';
 import { Actuator, place, Regulator, Reservoir, SourceSign, Valve } from './drawing';
 
@@ -61,7 +62,9 @@ export function Schematic({
   const reservoir = rowOf(design, 'reservoir');
   const regulator = rowOf(design, 'regulator');
   const groupPressures = settings.group_pressure_kpa_gauge; // behind a regulator of each group
-  const bus = groupPressures ? at.ownBus : at.bus;
+  const ownPumps = isDirect(configuration) && feedOf(requirements) !== 'shared'; // no bus
+  const each = feedOf(requirements) === 'per_actuator' ? 'to each actuator' : 'to each group';
+  const bus = groupPressures ? at.ownBus : ownPumps ? at.source : at.bus;
   const battery = rowOf(design, 'battery');
   const joints = design.parts.filter(({ family }) => family === 'manifold');
   const setting = `${shown('pressure', settings.source_pressure_kpa_gauge)} ${unitOf('pressure')}`;
@@ -75,21 +78,33 @@ export function Schematic({
     >
       <path
         class="pipe"
-        d={`M${at.source} ${middle} H${bus} M${bus} ${yOf(0)} V${yOf(groups.length - 1)}`}
+        d={
+          ownPumps
+            ? ''
+            : `M${at.source} ${middle} H${bus} M${bus} ${yOf(0)} V${yOf(groups.length - 1)}`
+        }
       />
-      <g transform={place(at.source, middle)} class="sign source">
-        <SourceSign kind={configuration} />
-      </g>
-      <Label
-        x={at.source}
-        y={middle + 30}
-        texts={isTank ? [partText(reservoir)] : [source ? partText(source) : 'wall supply']}
-      />
-      {!isDirect(configuration) && !(isTank && !regulator) && !groupPressures && (
-        <g transform={place(at.store, middle)} class="sign">
-          {hasReservoir(configuration) ? <Reservoir /> : <Regulator />}
+      {!ownPumps && (
+        <g transform={place(at.source, middle)} class="sign source">
+          <SourceSign kind={configuration} />
         </g>
       )}
+      <Label
+        x={at.source}
+        y={(ownPumps ? yOf(groups.length - 1) : middle) + 30}
+        texts={
+          isTank
+            ? [partText(reservoir)]
+            : [source ? partText(source) : 'wall supply', ownPumps ? each : undefined]
+        }
+      />
+      {!isDirect(configuration) &&
+        (hasReservoir(configuration) || regulator) &&
+        !groupPressures && (
+          <g transform={place(at.store, middle)} class="sign">
+            {hasReservoir(configuration) ? <Reservoir /> : <Regulator />}
+          </g>
+        )}
       {!groupPressures && (
         <Label
           x={at.store}
@@ -102,7 +117,7 @@ export function Schematic({
           ]}
         />
       )}
-      <Label x={bus} y={24} texts={joints.map(partText)} />
+      <Label x={ownPumps ? at.store : bus} y={24} texts={joints.map(partText)} />
       {battery && (
         <>
           <path class="wire" d={`M${at.source} ${height - 48} V${height - 70} H${at.valve}`} />
@@ -120,6 +135,11 @@ export function Schematic({
         return (
           <g key={group.name}>
             <path class="pipe" d={`M${bus} ${y} H${at.actuator}`} />
+            {ownPumps && (
+              <g transform={place(at.source, y)} class="sign source">
+                <SourceSign kind={configuration} />
+              </g>
+            )}
             {groupPressures && (
               <>
                 <g transform={place(at.store, y)} class="sign">

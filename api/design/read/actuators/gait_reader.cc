@@ -67,6 +67,7 @@ void CheckGaits(Reader& request, optimizer::Problem& problem) {
       remarks->Warn("/duty/simultaneous",
                     "does not count for the groups that have a phase: the phase says when they "
                     "begin");
+  if (problem.pump_feed != optimizer::PumpFeed::kShared) return;  // none fills two
   const optimizer::Meeting meeting = optimizer::MeetingOf(problem);
   if (meeting != optimizer::Meeting::kTogether && meeting != optimizer::Meeting::kMixed) return;
   // What was not asked for by name is no choice.

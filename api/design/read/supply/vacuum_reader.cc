@@ -1,5 +1,6 @@
 #include "api/design/read/supply/vacuum_reader.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,25 +12,41 @@ namespace {
 
 using optimizer::Configuration;
 
-// Whether the request asks for pumps; an ejector and a vacuum from the wall are refused by name.
-bool AsksForPumps(Reader& vacuum) {
-  if (!vacuum.Has("configurations")) return true;
+struct Asked {
+  bool pumps = true, wall = false;
+};
+
+// What the request asks for; an ejector is refused by name.
+Asked ReadKinds(Reader& vacuum) {
+  if (!vacuum.Has("configurations")) return {};
+  Asked asked{false, false};
   const std::vector<std::string> names{"pump", "ejector", "mains"};
   const std::vector<std::string> given = vacuum.Texts("configurations", 1, names.size());
-  bool pumps = false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::string place = "configurations/" + std::to_string(i);
     if (given[i] == "pump")
-      pumps = true;
-    else if (given[i] == "ejector" || given[i] == "mains")
-      vacuum.FailAt(place, "must be pump: " +
-                               std::string(given[i] == "mains" ? "a vacuum from the wall is"
-                                                               : "ejectors are") +
-                               " not searched yet");
+      asked.pumps = true;
+    else if (given[i] == "mains")
+      asked.wall = true;
+    else if (given[i] == "ejector")
+      vacuum.FailAt(place, "must be pump or mains: ejectors are not searched yet");
     else if (!given[i].empty())
       vacuum.FailAt(place, "must be " + OneOf(names) + ", not " + Quoted(given[i]));
   }
-  return pumps;
+  return asked;
+}
+
+// The wall's vacuum and its flow.
+void ReadWall(Reader& vacuum, bool asked, optimizer::Problem& problem) {
+  auto mains = vacuum.OptionalObject("mains");
+  if (!mains && asked) vacuum.Fail("mains", "is required by the configuration mains");
+  if (!mains) return;
+  problem.mains = {};
+  const double kpa = mains->Number("pressure_kpa_gauge", {-problem.ambient.pressure_pa / 1e3, -1});
+  problem.mains.pressure_pa = optimizer::PaFromKpaGauge(problem, kpa);
+  const auto flow = mains->OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6));
+  if (flow) problem.mains.flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
+  mains->Finish();
 }
 
 }  // namespace
@@ -47,9 +64,10 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
     supply.Fail("vacuum",
                 "is for actuators that are evacuated: none has an operating pressure below 0 kPa "
                 "gauge");
-  bool pumps = evacuated;
+  Asked asked;
   if (vacuum) {
-    pumps = AsksForPumps(*vacuum);
+    asked = ReadKinds(*vacuum);
+    ReadWall(*vacuum, asked.wall, problem);
     const auto deepest =
         vacuum->OptionalNumber("vacuum_kpa_gauge_min", {-problem.ambient.pressure_pa / 1e3, -1});
     if (deepest && evacuated)
@@ -58,21 +76,27 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
   }
   if (!evacuated) return;
   problem.configurations.clear();
-  if (pumps)
+  if (asked.pumps)
     problem.configurations = {Configuration::kVacuumPump, Configuration::kDirectVacuumPump};
+  if (asked.wall) problem.configurations.insert(Configuration::kMains);
 }
 
 void CheckVacuum(const optimizer::Problem& problem, Errors& errors) {
+  const bool wall = problem.configurations == std::set<Configuration>{Configuration::kMains};
+  const auto told = [&](double pa) { return Decimal(Rounded(optimizer::KpaGauge(problem, pa))); };
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const double operating_pa = problem.groups[g].chamber.operating_pressure_pa;
-    if (!(operating_pa > problem.source_pressure_max_pa)) continue;
-    const auto told = [&](double pa) { return Decimal(Rounded(optimizer::KpaGauge(problem, pa))); };
-    errors.push_back(
-        {optimizer::GroupPointer(problem, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
-         "is " + told(operating_pa) +
-             ", below the deepest vacuum allowed: "
-             "/supply/vacuum/vacuum_kpa_gauge_min is " +
-             told(problem.source_pressure_max_pa)});
+    const auto fail = [&](const std::string& why) {
+      errors.push_back(
+          {optimizer::GroupPointer(problem, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
+           "is " + told(operating_pa) + ", below the " + why});
+    };
+    if (operating_pa > problem.source_pressure_max_pa)
+      fail("deepest vacuum allowed: /supply/vacuum/vacuum_kpa_gauge_min is " +
+           told(problem.source_pressure_max_pa));
+    else if (wall && operating_pa > problem.mains.pressure_pa)
+      fail("only source: /supply/vacuum/mains/pressure_kpa_gauge is " +
+           told(problem.mains.pressure_pa));
   }
 }
 

@@ -1,0 +1,45 @@
+// Which actuators pumps without a reservoir feed.
+//
+// A feed is some pumps and what they fill: all groups one after another (shared), the actuators of
+// one group (per group), or one actuator (per actuator). All feeds of a design have the same pumps,
+// as many of them. A feed fills one squad (gait.h) at a time, from ambient pressure in front of its
+// lines, and is off else; other feeds may run meanwhile.
+//
+// A pump of one actuator feeds its line past the valve, which only vents (a 2/2 valve): what the
+// line takes crosses tube and fittings alone, and the pump's own valves keep the actuator full.
+#ifndef PLENUM_OPTIMIZER_PROBLEM_PUMP_FEED_H_
+#define PLENUM_OPTIMIZER_PROBLEM_PUMP_FEED_H_
+
+#include <vector>
+
+#include "optimizer/problem/gait.h"
+#include "optimizer/problem/problem.h"
+
+namespace plenum::optimizer {
+
+// Of a design of pumps without a reservoir; 1 where they are shared.
+int FeedsOf(const Problem& problem);
+// How many times a piece of a family is bought where a design has one a feed: of its pumps.
+int FeedsOf(const Problem& problem, Family family);
+
+// Most feeds that may run at the same time, by the windows of their strokes (gait.h).
+int FeedsAtOnce(const Problem& problem);
+
+// A squad as its feeds have it.
+struct FedSquad {
+  Squad squad;
+  int feed = 0;   // the first of those that fill it; they are alike
+  int feeds = 1;  // that fill it, each its part
+  int count = 0;  // actuators on each
+  // It must be full so long after its command, s: its window, or the next turn of its feed; 0 where
+  // a feed would begin two squads at once.
+  double turn_s = 0.0;
+};
+std::vector<FedSquad> FedSquadsOf(const Problem& problem);
+
+// Whether some feed would begin two squads at once, so that there are no designs.
+bool FeedsMeet(const Problem& problem);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_PROBLEM_PUMP_FEED_H_

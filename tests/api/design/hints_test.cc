@@ -1,0 +1,58 @@
+// Configurations that a request does not name.
+#include <gtest/gtest.h>
+
+#include "api/design/answer.h"
+#include "tests/api/support.h"
+#include "tests/api/verified.h"
+
+namespace plenum::api {
+namespace {
+
+Json Arm(const Json& configurations) {
+  Json request = Example("tank_arm");
+  request["supply"]["configurations"] = configurations;
+  return request;
+}
+
+// A bottle weighs more than twice what a tank does here: the hint is what a search of the tank
+// finds.
+TEST(Hints, SayWhatAnotherConfigurationWouldDo) {
+  const Json bottle = Answered(Arm({"cylinder"}));
+  ASSERT_TRUE(bottle.contains("hints"));
+  bool tank_named = false;
+  for (const Json& hint : bottle["hints"]) {
+    const double objective = hint["objective"];
+    EXPECT_LE(objective, 0.9 * bottle["designs"][0]["objective"].get<double>());
+    const Json other = Answered(Arm({hint["configuration"]}));
+    EXPECT_NEAR(other["designs"][0]["objective"].get<double>(), objective, 1e-6 * objective);
+    tank_named = tank_named || hint["configuration"] == "tank";
+  }
+  EXPECT_TRUE(tank_named);
+  for (const Json& design : bottle["designs"]) EXPECT_EQ(design["configuration"], "cylinder");
+}
+
+TEST(Hints, AreNotGivenWhereAllAreNamedOrNoneIs) {
+  EXPECT_FALSE(Answered(Arm({"tank", "cylinder", "co2", "compressor"}))
+                   .value("hints", Json::array())
+                   .size() > 1);  // but for the pump without a reservoir
+  Json request = Example("tank_arm");
+  request["supply"].erase("configurations");
+  request["supply"].erase("tank_fill_kpa_gauge_max");
+  EXPECT_FALSE(Answered(request).contains("hints"));
+}
+
+// No bottle gives this pressure so cheaply, but mains that the request has do.
+TEST(Hints, NameADesignWhereTheNamedConfigurationsHaveNone) {
+  Json request = Example("gripper");
+  request["supply"] = {{"configurations", {"direct_pump"}},
+                       {"mains", {{"pressure_kpa_gauge", 600}}}};
+  request["actuators"][0]["rise_time_s_max"] = 0.05;
+  const Json answer = Answered(request);
+  ASSERT_EQ(answer["status"], "infeasible");
+  bool mains = false;
+  for (const Json& hint : answer.at("hints")) mains = mains || hint["configuration"] == "mains";
+  EXPECT_TRUE(mains);
+}
+
+}  // namespace
+}  // namespace plenum::api

@@ -1,0 +1,101 @@
+// A vacuum from the wall, from the request to the checked answer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "api/design/given/evaluation.h"
+#include "api/simulate/simulation.h"
+#include "tests/api/support.h"
+#include "tests/api/verified.h"
+
+namespace plenum::api {
+namespace {
+
+Json FromWall(double flow_max = 0.0) {
+  Json request = Example("jamming_gripper");
+  request["ranking"] = {{"count", 3}, {"per_source", 20}, {"proof", true}};
+  Json mains = {{"pressure_kpa_gauge", -85.0}};
+  if (flow_max > 0.0) mains["flow_l_per_min_anr_max"] = flow_max;
+  request["supply"]["vacuum"] = {{"configurations", {"mains"}}, {"mains", mains}};
+  return request;
+}
+
+const catalog::Part& RowWithId(const std::string& id) {
+  return *std::find_if(Project().parts.begin(), Project().parts.end(),
+                       [&](const catalog::Part& part) { return part.id == id; });
+}
+
+// A design on the wall as a rig by itself: its valve, fittings and tube between bag and -85 kPa.
+Json SimulatedOnWall(const Json& design, double flow_max) {
+  Json elements = Json::array();
+  const auto id_of = [&](const std::string& family) {
+    for (const Json& row : design["parts"])
+      if (row["family"] == family) return row["id"].get<std::string>();
+    return std::string();
+  };
+  elements.push_back({{"part", id_of("valve")}});
+  elements.push_back({{"part", id_of("fitting")}});
+  elements.push_back({{"part", id_of("tubing")}, {"length_m", 1.0}});
+  elements.push_back({{"part", id_of("fitting")}});
+  Json source = {{"kind", "regulated"}, {"source_pressure_kpa_gauge", -85.0}};
+  if (flow_max > 0.0) source["flow_l_per_min_anr_max"] = flow_max;
+  Json request = {{"schema", "simulation/1"},
+                  {"actuators",
+                   {{{"rest_volume_ml", 200},
+                     {"expansion_ratio", 0.8},
+                     {"operating_pressure_kpa_gauge", -60},
+                     {"close_at_operating_pressure",
+                      RowWithId(id_of("valve")).texts.at("function").value != "3/2"},
+                     {"line", {{"elements", elements}}}}}},
+                  {"source", source},
+                  {"cycle", {{"frequency_hz", 0.1}}},
+                  {"t_end_s", 10.0}};
+  const auto result = RunSimulation(request, Project().parts);
+  for (const Error& error : ErrorsOf(result)) ADD_FAILURE() << error.pointer << error.detail;
+  return std::get<Json>(result);
+}
+
+TEST(WallVacuum, FromTheWallNeedsNoPump) {
+  for (const double flow_max : {0.0, 20.0}) {
+    SCOPED_TRACE(flow_max);
+    const Json answer = Answered(FromWall(flow_max));
+    EXPECT_EQ(answer["status"], "optimal");
+    EXPECT_EQ(Refusals(answer), "");
+    ASSERT_FALSE(answer["designs"].empty());
+    for (const Json& design : answer["designs"]) {
+      EXPECT_EQ(design["configuration"], "mains");
+      EXPECT_NEAR(design["settings"]["vacuum_kpa_gauge"].get<double>(), -85.0, 1e-9);
+      for (const Json& row : design["parts"])
+        EXPECT_TRUE(row["family"] == "valve" || row["family"] == "tubing" ||
+                    row["family"] == "fitting")
+            << row;
+      EXPECT_TRUE(design["kind"]["regulators"].empty());
+      const Json simulated = SimulatedOnWall(design, flow_max);
+      const double rise_s = simulated["performance"]["groups"][0]["rise_time_s"];
+      EXPECT_NEAR(design["performance"]["groups"][0]["rise_time_s"].get<double>(), rise_s,
+                  1e-4 * rise_s);
+    }
+  }
+}
+
+TEST(WallVacuum, ALessDeepOrNarrowerWallIsNeverBetter) {
+  const double best = Answered(FromWall())["designs"][0]["objective"];
+  Json shallow = FromWall();
+  shallow["supply"]["vacuum"]["mains"]["pressure_kpa_gauge"] = -70.0;
+  EXPECT_GE(Answered(shallow)["designs"][0]["objective"].get<double>(), best * (1.0 - 1e-9));
+  EXPECT_GE(Answered(FromWall(16.0))["designs"][0]["objective"].get<double>(), best * (1.0 - 1e-9));
+  EXPECT_EQ(Answered(FromWall(1.0))["status"], "infeasible");
+}
+
+TEST(WallVacuum, ADesignFromTheWallIsEvaluatedAsItWasListed) {
+  const Json request = FromWall();
+  const Json design = Answered(request)["designs"][0];
+  const auto evaluated =
+      RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
+                    Project().parts, {});
+  for (const Error& error : ErrorsOf(evaluated)) ADD_FAILURE() << error.pointer << error.detail;
+  EXPECT_EQ(std::get<Json>(evaluated)["works"], true);
+}
+
+}  // namespace
+}  // namespace plenum::api
