@@ -5,10 +5,10 @@
 // on its own regulator, whatever the others do. A bottle or a tank must keep, to the end, the
 // highest inlet pressure that one of the regulators asks.
 //
-// A pump's reservoir feeds its lines itself, so that it has no such designs, and neither has an
-// open tank or a vacuum from the wall. Two sides of one actuator (ActuatorGroup::entry) would need two regulators: problems
-// that have them have no such designs. Neither have mains whose flow is limited where groups may
-// draw at once, since they would share it, nor groups of a revised model.
+// A pump's reservoir feeds its lines itself, so that it has no such designs, and neither have an
+// open tank, a vacuum from the wall, and two sides of one actuator (ActuatorGroup::entry), which
+// would need two regulators; nor mains whose flow is limited where groups may draw at once, since
+// they would share it, nor groups of a revised model.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_OWN_REGULATORS_H_
 #define PLENUM_OPTIMIZER_PROBLEM_OWN_REGULATORS_H_
 
