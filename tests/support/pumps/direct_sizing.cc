@@ -181,6 +181,12 @@ std::vector<Fills> FillsOf(const Problem& problem) {
   return all;
 }
 
+// Whether the same pumps fill both.
+bool OnSamePumps(const Problem& problem, const Fills& a, const Fills& b) {
+  return problem.pump_feed == optimizer::PumpFeed::kShared ||
+         (problem.pump_feed == optimizer::PumpFeed::kPerGroup && a.group == b.group);
+}
+
 // Share of the period until any other begins, or 0 where one begins at the same time.
 double ShareUntilNext(const Problem& problem, const std::vector<Fills>& all, const Fills& one) {
   double least = 1.0;
@@ -194,12 +200,6 @@ double ShareUntilNext(const Problem& problem, const std::vector<Fills>& all, con
       }
   }
   return least;
-}
-
-// Whether the same pumps fill both.
-bool OnSamePumps(const Problem& problem, const Fills& a, const Fills& b) {
-  return problem.pump_feed == optimizer::PumpFeed::kShared ||
-         (problem.pump_feed == optimizer::PumpFeed::kPerGroup && a.group == b.group);
 }
 
 // Most pumps of their own that are on at once, where each is for the whole of its window; looked

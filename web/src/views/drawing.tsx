@@ -168,7 +168,7 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
               <Actuator group={group} largest={largest} />
             </g>
             <text x="178" y={y + 27}>
-              valve
+              {own && feedOf(requirements) === 'per_actuator' ? 'vent valve' : 'valve'}
             </text>
             <text x="240" y={y + 27}>
               {short(group.tube_length_m)} m

@@ -158,7 +158,16 @@ export function Schematic({
             <g transform={place(at.valve, y)} class="sign">
               <Valve />
             </g>
-            <Label x={at.valve} y={y + 28} texts={[partText(rowOf(design, 'valve', group.name))]} />
+            <Label
+              x={at.valve}
+              y={y + 28}
+              texts={[
+                partText(rowOf(design, 'valve', group.name)),
+                ownPumps && feedOf(requirements) === 'per_actuator'
+                  ? 'vents, beside the line'
+                  : undefined,
+              ]}
+            />
             <path class="tube" d={`M${at.tube - 32} ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
             <Label
               x={at.tube}
