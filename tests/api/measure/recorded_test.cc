@@ -104,7 +104,7 @@ TEST(RecordedDocument, WhatCannotBeIsNamedWithItsPlace) {
   const std::string range = "/rig/sensor/range_kpa_gauge";
   expect(range.c_str(), {1000, 0}, range, "the lower one first");
   expect(range.c_str(), {0, 1, 2}, range, "");
-  expect(range.c_str(), {0, 300}, "/runs/0/pressure_kpa_gauge/64", "beyond the sensor's range");
+  expect(range.c_str(), {0, 300}, "/runs/0/pressure_kpa_gauge/63", "beyond the sensor's range");
   expect("/rig/sensor/resolution_kpa", -1, "/rig/sensor/resolution_kpa", "not -1");
   expect("/rig/sensor/resolution_kpa", 900, "/rig/sensor/resolution_kpa", "less than half");
   expect("/rig/sensor/accuracy_kpa", "x", "/rig/sensor/accuracy_kpa", "number");
