@@ -126,10 +126,11 @@ std::vector<Json> AllMeasurements() {
                            "body": {} },
              "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3,
                        "exhaust": {}, "tube": {} },
-             "supply": { "kind": "compressor", "measure": [], "curve": [ {} ] } },
+             "supply": { "kind": "compressor", "measure": [], "curve": [ {} ] },
+             "sensor": {} },
     "runs": [ { "initial": {}, "channels": { "source_pressure_kpa_gauge": [],
                 "inlet_pressure_kpa_gauge": [], "temperature_k": [], "volume_ml": [],
-                "flow_l_per_min_anr": [] }, "valve": [ {} ], "cycle": {} } ] })"),
+                "flow_l_per_min_anr": [] }, "valve": [ { "uncertainty_s": 0 } ], "cycle": {} } ] })"),
           Document(R"({
     "schema": "measurement/1",
     "rig": { "actuator": {}, "line": { "elements": [ { "measure": [], "exhaust": {} },

@@ -60,15 +60,8 @@ const char* Name(model::EffectPlace place) {
 }
 
 const char* Name(model::ValveState state) {
-  switch (state) {
-    case model::ValveState::kInflate:
-      return "inflate";
-    case model::ValveState::kDeflate:
-      return "deflate";
-    case model::ValveState::kHold:
-      break;
-  }
-  return "hold";
+  if (state == model::ValveState::kInflate) return "inflate";
+  return state == model::ValveState::kDeflate ? "deflate" : "hold";
 }
 
 Json Kpa(double pa) { return Number(pa / kPaPerKpa); }
@@ -167,6 +160,7 @@ struct DeclaredNumber {
   double value = 0.0;  // SI, counted from the zero: gauge pressures
   double factor = 1.0;
   const char* unit = "1";
+  double origin = 0.0;  // of the factor: where the number is 0
 };
 
 std::optional<DeclaredNumber> DeclaredIn(const Run& run, Declared number) {
@@ -204,6 +198,10 @@ std::optional<DeclaredNumber> DeclaredIn(const Run& run, Declared number) {
       return DeclaredNumber{run.reservoir_volume_m3, kM3PerMl, "ml"};
     case Declared::kAmbientPressure:
       return DeclaredNumber{ambient, kPaPerKpa, "kpa_abs"};
+    case Declared::kSensorZero:
+      return DeclaredNumber{calibration::kSensorZeroPa, kPaPerKpa, "kpa", 1.0};
+    case Declared::kSensorGain:
+      return DeclaredNumber{1.0, 1.0, "1"};
   }
   return {};
 }
@@ -223,8 +221,11 @@ Json RenderFitted(const std::vector<std::pair<Declared, Estimate>>& factors,
     const std::optional<DeclaredNumber> declared = DeclaredIn(dataset, number);
     if (!declared) continue;
     const double one = declared->value / declared->factor;
-    Json rendered = RenderEstimate(factor, 1.0 / one);
-    rendered["declared"] = Number(one);
+    const double origin = declared->origin;
+    Json rendered = RenderEstimate(
+        {factor.value - origin, factor.low - origin, factor.high - origin, factor.identified},
+        1.0 / one);
+    rendered["declared"] = Number((1.0 - declared->origin) * one);
     rendered["unit"] = declared->unit;
     rendered["factor"] = Number(factor.value);
     fitted[std::string(calibration::Name(number))] = std::move(rendered);

@@ -18,7 +18,10 @@ using calibration::MeasuredPlace;
 using calibration::Supply;
 
 constexpr std::size_t kElementsMax = 16;
-constexpr double kFlowPressurePa = 1e8;     // up to which a flow controller lets its flow in
+constexpr double kFlowPressurePa = 1e8;      // up to which a flow controller lets its flow in
+constexpr double kSensorLowestKpa = -200.0;  // gauge; sensors of absolute pressure begin below 0
+constexpr double kSensorErrorMaxKpa = 1e4;
+constexpr double kCoarsest = 0.5;           // of the range
 constexpr double kSmallReservoirMl = 10.0;  // where a compressor feeds the line directly
 
 constexpr const char* kRemarks[] = {"note",    "notes",  "comment", "description", "date",
@@ -186,6 +189,30 @@ void ReadSupply(Reader& rig, MeasuredRig& part) {
   if (!kind.empty()) supply->Finish();
 }
 
+// The gauge in the chamber, from its data sheet.
+calibration::Sensor ReadSensor(Reader& rig, const model::Ambient& ambient) {
+  calibration::Sensor sensor;
+  auto reader = rig.OptionalObject("sensor");
+  if (!reader) return sensor;
+  if (reader->Has("range_kpa_gauge")) {
+    const std::vector<double> ends =
+        reader->Numbers("range_kpa_gauge", 2, {kSensorLowestKpa, kGaugeMaxKpa});
+    if (ends.size() != 2 || !(ends[0] < ends[1])) {
+      reader->Fail("range_kpa_gauge", "must be two pressures, the lower one first");
+    } else {
+      sensor.low_pa = PaFromKpaGauge(ends[0], ambient);
+      sensor.high_pa = PaFromKpaGauge(ends[1], ambient);
+    }
+  }
+  const Range small = {0, kSensorErrorMaxKpa};
+  sensor.resolution_pa = reader->Number("resolution_kpa", small, 0.0) * kPaPerKpa;
+  sensor.accuracy_pa = reader->Number("accuracy_kpa", small, 0.0) * kPaPerKpa;
+  if (sensor.HasRange() && sensor.resolution_pa > kCoarsest * (sensor.high_pa - sensor.low_pa))
+    reader->Fail("resolution_kpa", "must be less than half of range_kpa_gauge");
+  reader->Finish();
+  return sensor;
+}
+
 MeasuredRig ReadRig(const Json& document, const std::string& pointer, Errors& errors) {
   Reader reader(document, pointer, errors);
   MeasuredRig part;
@@ -202,6 +229,7 @@ MeasuredRig ReadRig(const Json& document, const std::string& pointer, Errors& er
   if (const auto kpa =
           reader.OptionalNumber("exhaust_pressure_kpa_gauge", PressuresAbove0(part.ambient)))
     part.exhaust_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
+  part.sensor = ReadSensor(reader, part.ambient);
   reader.Finish();
   return part;
 }

@@ -28,6 +28,7 @@ struct MeasuredRig {
   std::optional<double> source_pressure_pa, exhaust_pressure_pa;
   model::CompressorCurve compressor;
   double reservoir_volume_m3 = 0.0;
+  calibration::Sensor sensor;
   std::vector<MeasuredInRig> measured;
 };
 

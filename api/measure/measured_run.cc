@@ -11,7 +11,7 @@
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/measure/measured_rig.h"
-#include "api/simulate/rig.h"
+#include "api/measure/valve/measured_valve.h"
 #include "calibration/values/crossing.h"
 
 namespace plenum::api {
@@ -223,6 +223,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.supply = rig.supply;
   run.compressor = rig.compressor;
   run.reservoir_volume_m3 = rig.reservoir_volume_m3;
+  run.sensor = rig.sensor;
   TakeMeasured(rig.measured, measured, run);
   run.blocked = reader.Bool("blocked", false);
   const Range pressures = PressuresAbove0(run.ambient);
@@ -236,10 +237,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.exhaust_pressure_pa = exhaust_kpa ? PaFromKpaGauge(*exhaust_kpa, run.ambient)
                                         : rig.exhaust_pressure_pa.value_or(0.0);
   ReadInitial(reader, run);
-  if (const auto schedule = ReadSchedule(reader))
-    run.valve = schedule->commands;
-  else
-    reader.Fail("valve", "is required, a list of commands { t_s, state }");
+  ReadMeasuredValve(reader, run);
   run.t_s = ReadSeries(reader, "t_s", {-kTimeMaxS, kTimeMaxS}, false, kReadingsMin);
   CheckRising(reader, run.t_s);
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
@@ -247,6 +245,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
                                     true, kReadingsMin),
                          [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
   CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
+  FindInstants(reader, run);
   ReadChannels(reader, run);
   CheckAgreement(reader, run, has_source);
   CheckReadings(reader, run);

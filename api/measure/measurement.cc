@@ -1,10 +1,13 @@
 #include "api/measure/measurement.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "api/json/reader.h"
 #include "api/json/schema_recorder.h"
 #include "api/json/shared_fields.h"
+#include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/measure/measured_rig.h"
 #include "api/measure/measured_run.h"
@@ -16,10 +19,12 @@ namespace {
 using calibration::Dataset;
 using calibration::Declared;
 
+constexpr double kBeyondRange = 0.01;  // of the range: readings that no sensor gives
+
 void ReadUncertainty(Reader& document, Dataset& dataset) {
   auto reader = document.OptionalObject("relative_uncertainty");
   if (!reader) return;
-  for (int k = 0; k < calibration::kDeclaredCount; ++k) {
+  for (int k = 0; k < calibration::kOfTheRig; ++k) {
     const auto name = calibration::Name(static_cast<Declared>(k));
     double& uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(k)];
     reader->Describe(name, {{"anyOf", {NumberForm({0, 10}), {{"const", "unknown"}}}}});
@@ -59,6 +64,44 @@ void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Data
   }
   if (!ids.empty() && dataset.holdout.size() >= ids.size())
     document.Fail("holdout", "must leave at least one run to fit");
+}
+
+// The gauge's zero and gain are known as well as its data sheet says: the gain to the accuracy at
+// the far end of its range, or at the operating pressure where the range is not stated.
+void TakeAccuracy(Dataset& dataset) {
+  for (const calibration::Run& run : dataset.runs) {
+    const calibration::Sensor& sensor = run.sensor;
+    if (!(sensor.accuracy_pa > 0.0)) continue;
+    const double ambient_pa = run.ambient.pressure_pa;
+    const double full_pa = sensor.HasRange() ? std::max(std::abs(sensor.high_pa - ambient_pa),
+                                                        std::abs(sensor.low_pa - ambient_pa))
+                                             : run.chamber.operating_pressure_pa - ambient_pa;
+    const auto raise = [&](Declared number, double share) {
+      double& uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(number)];
+      uncertainty = std::max(uncertainty, share);
+    };
+    raise(Declared::kSensorZero, sensor.accuracy_pa / calibration::kSensorZeroPa);
+    raise(Declared::kSensorGain, sensor.accuracy_pa / full_pa);
+  }
+}
+
+// Readings far beyond the range are of another sensor, or in another unit.
+void CheckRanges(Reader& document, const Dataset& dataset) {
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const calibration::Run& run = dataset.runs[i];
+    const calibration::Sensor& sensor = run.sensor;
+    if (!sensor.HasRange()) continue;
+    const double beyond_pa = kBeyondRange * (sensor.high_pa - sensor.low_pa) + sensor.resolution_pa;
+    const auto off = std::find_if(run.pressure_pa.begin(), run.pressure_pa.end(), [&](double pa) {
+      return pa < sensor.low_pa - beyond_pa || pa > sensor.high_pa + beyond_pa;
+    });
+    if (off == run.pressure_pa.end()) continue;
+    const auto kpa = [&](double pa) { return Decimal(Rounded(KpaGaugeFromPa(pa, run.ambient))); };
+    document.FailAt("runs/" + std::to_string(i) + "/pressure_kpa_gauge/" +
+                        std::to_string(off - run.pressure_pa.begin()),
+                    "is " + kpa(*off) + " kPa, beyond the sensor's range_kpa_gauge of " +
+                        kpa(sensor.low_pa) + " to " + kpa(sensor.high_pa));
+  }
 }
 
 // One name or a list of them: slips of the pen that are undone in the data set.
@@ -118,6 +161,8 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
   CheckHoldout(reader, ids, dataset);
   ReadAssumptions(reader, dataset);
+  TakeAccuracy(dataset);
+  CheckRanges(reader, dataset);
   reader.Finish();
   if (!errors.empty()) return errors;
   if (remarks != nullptr) *remarks = recorder.Take();

@@ -70,10 +70,25 @@ Json RenderOwn(const StatedModel& model, std::size_t index, const Run& run) {
               {"clock_s", Number(state.clock_s[index])}};
   if (state.phase_rad[index] != 0.0) own["phase_rad"] = Number(state.phase_rad[index]);
   for (const double late_s : state.late_s[index]) own["late_s"].push_back(Number(late_s));
+  for (std::size_t k = 0; k < state.moved_s[index].size(); ++k)
+    own["valve_s"].push_back(Number(run.valve[k].time_s + state.moved_s[index][k]));
   if (model.run_factor[index] != state.factor)
     own["factors"] = RenderFactors(model.run_factor[index]);
   if (!model.fitted_alone[index].empty()) own["fitted_alone"] = model.fitted_alone[index];
   return own;
+}
+
+// By how much the commands come after the recorded instants, where those are not exact.
+std::vector<double> ReadInstants(Reader& own, const Run& run) {
+  const std::size_t count = run.valve_uncertainty_s.size();
+  if (count == 0) return {};
+  std::vector<double> moved_s = own.Numbers("valve_s", count, {-kAnySeconds, kAnySeconds});
+  if (moved_s.size() != count)
+    own.Fail("valve_s",
+             "must have a time for each of the run's " + std::to_string(count) + " commands");
+  moved_s.resize(count);
+  for (std::size_t k = 0; k < count; ++k) moved_s[k] -= run.valve[k].time_s;
+  return moved_s;
 }
 
 void ReadOwn(Reader own, const Run& run, std::size_t index, StatedModel& model) {
@@ -88,6 +103,7 @@ void ReadOwn(Reader own, const Run& run, std::size_t index, StatedModel& model) 
   if (!state.late_s[index].empty() && state.late_s[index].size() != run.valve.size())
     own.Fail("late_s", "must have a time for each of the run's " +
                            std::to_string(run.valve.size()) + " commands");
+  state.moved_s[index] = ReadInstants(own, run);
   model.run_factor[index] = own.Has("factors") ? ReadFactors(own) : state.factor;
 }
 
@@ -178,6 +194,7 @@ Parsed<StatedAnswer> ParseStatedModel(const Json& answer, const std::string& mod
   state.clock_s.resize(count);
   state.phase_rad.resize(count);
   state.late_s.resize(count);
+  state.moved_s.resize(count);
   stated.model.run_factor.resize(count);
   stated.model.fitted_alone.resize(count);
   const std::vector<Element> runs = reader.List("runs", count, count);

@@ -2,7 +2,8 @@
 // "declared", "before", "after" and "learned", what each run has of its own under "runs":
 //   { "id": "r1", "held_out": false, "relative_tolerance": 1e-8, "left_out": [ 17 ],
 //     "before": { "initial_pressure_kpa_gauge", "initial_temperature_k", "clock_s" }, "after": … }
-// and where a model has them "phase_rad", "late_s" (by command), "factors" (those of a run held out
+// and where a model has them "phase_rad", "late_s" (by command), "valve_s" (the instants of the
+// commands, where they are not known exactly), "factors" (those of a run held out
 // whose line is of no other run) and "fitted_alone" (what was fitted to a run held out).
 #ifndef PLENUM_API_MEASURE_STATED_DOCUMENT_H_
 #define PLENUM_API_MEASURE_STATED_DOCUMENT_H_

@@ -134,13 +134,6 @@ model::RegulatedSource ReadRegulated(Reader& source, const Surroundings& around)
   return regulated;
 }
 
-model::ValveState ReadState(Reader& command) {
-  const std::string state = command.Choice("state", {"hold", "inflate", "deflate"});
-  if (state == "inflate") return model::ValveState::kInflate;
-  if (state == "deflate") return model::ValveState::kDeflate;
-  return model::ValveState::kHold;
-}
-
 }  // namespace
 
 Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts) {
@@ -190,6 +183,13 @@ model::Gas ReadGas(Reader& owner) {
   return named == names.end() ? model::Gas::kAir : static_cast<model::Gas>(named - names.begin());
 }
 
+model::ValveState ReadValveState(Reader& command) {
+  const std::string state = command.Choice("state", {"hold", "inflate", "deflate"});
+  if (state == "inflate") return model::ValveState::kInflate;
+  if (state == "deflate") return model::ValveState::kDeflate;
+  return model::ValveState::kHold;
+}
+
 std::optional<Schedule> ReadSchedule(Reader& owner) {
   if (owner.Has("valve") && owner.Has("cycle"))
     owner.Fail("cycle", "give either valve or cycle, not both");
@@ -202,7 +202,7 @@ std::optional<Schedule> ReadSchedule(Reader& owner) {
       if (time_s < last_s)
         command.Fail("t_s", "must not fall from command to command: " + Decimal(time_s) +
                                 " follows " + Decimal(last_s));
-      schedule.commands.push_back({time_s, ReadState(command)});
+      schedule.commands.push_back({time_s, ReadValveState(command)});
       command.Finish();
       last_s = time_s;
     }

@@ -33,6 +33,9 @@ model::Source ReadSource(Reader& request, const model::Ambient& ambient,
 // "gas", air where it is not said.
 model::Gas ReadGas(Reader& owner);
 
+// "state" of a command.
+model::ValveState ReadValveState(Reader& command);
+
 // A schedule and how long it lasts, where it says so.
 struct Schedule {
   std::vector<model::ValveCommand> commands;

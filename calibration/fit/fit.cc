@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "calibration/fit/recorded/instants.h"
 #include "calibration/fit/run_cost.h"
 #include "calibration/fit/within_bounds.h"
 #include "model/effects/learned/learned.h"
@@ -38,6 +39,10 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
                                       const FitOptions& options) {
   std::vector<Coordinate> coordinates =
       BaseCoordinates(*data.forward, data.runs, data.clocks, start.freed);
+  std::erase_if(coordinates, [&](const Coordinate& coordinate) {
+    return coordinate.parameter.kind == Parameter::Kind::kClock &&
+           NoInstantIsExact(data.forward->dataset().runs[coordinate.parameter.run]);
+  });
   if (!options.nuisance_only)
     for (const Coordinate& coordinate : MeasuredCoordinates(data.forward->dataset(), data.runs))
       coordinates.push_back(coordinate);
@@ -50,6 +55,8 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
       coordinates.push_back(coordinate);
   for (const Coordinate& coordinate :
        RunCoordinates(*data.forward, data.runs, start.effects, data.sizes))
+    coordinates.push_back(coordinate);
+  for (const Coordinate& coordinate : InstantCoordinates(data.forward->dataset(), data.runs))
     coordinates.push_back(coordinate);
   if (options.nuisance_only) {
     std::erase_if(coordinates, [&](const Coordinate& coordinate) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/fit/recorded/gauge.h"
 #include "calibration/fit/source_record.h"
 #include "calibration/noise/noise.h"
 #include "calibration/values/crossing.h"
@@ -104,6 +105,7 @@ class DirectionOf {
           if (double* phase_rad = NumberNamed(effect, model::kPhaseSpec.name)) Add(*phase_rad, 1.0);
         break;
       case Parameter::Kind::kLateness:
+      case Parameter::Kind::kInstant:
         if (parameter.run == run_index) Add(group_.schedule[parameter.number].time_s, 1.0);
         break;
     }
@@ -136,6 +138,9 @@ class DirectionOf {
         break;
       case Declared::kAmbientPressure:
         OfAmbient();
+        break;
+      case Declared::kSensorZero:  // of the readings alone
+      case Declared::kSensorGain:
         break;
       case Declared::kSonicConductance:
       case Declared::kCriticalRatio:
@@ -225,12 +230,6 @@ Reading ReadingOf(model::Response response, double shift_pa) {
   return reading;
 }
 
-bool RecordsMoreThanPressures(const Run& run) {
-  const Channels& channels = run.channels;
-  return !channels.inlet_pressure_pa.empty() || !channels.temperature_k.empty() ||
-         !channels.volume_m3.empty() || !channels.flow_m3_per_s.empty();
-}
-
 // Without heat_transfer the gas has the ambient's temperature.
 void FillTemperature(const Run& run, Reading& reading) {
   if (reading.channels.temperature_k.empty())
@@ -262,6 +261,8 @@ ModelState ForwardModel::Declared() const {
   state.clock_s.assign(dataset_->runs.size(), 0.0);
   state.phase_rad.assign(dataset_->runs.size(), 0.0);
   state.late_s.resize(dataset_->runs.size());
+  for (const Run& run : dataset_->runs)
+    state.moved_s.emplace_back(run.valve_uncertainty_s.size(), 0.0);
   return state;
 }
 
@@ -306,8 +307,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
     rig.exhaust_pressure_pa = ExhaustPressure(run, shift_pa);
   model::GroupRig group;
   group.name = run.id;
-  group.chamber = run.chamber;
-  model::Chamber& chamber = group.chamber;
+  model::Chamber& chamber = group.chamber = run.chamber;
   chamber.rest_volume_m3 *= Factor(state, Declared::kRestVolume);
   chamber.volume_curve = Scaled(chamber.volume_curve, Factor(state, Declared::kRestVolume));
   chamber.expansion_ratio =
@@ -331,6 +331,8 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   for (const model::ValveCommand& command : run.valve)
     group.schedule.push_back(
         {command.time_s - StartOf(run) + state.clock_s[index], AsCrossed(command.state, run)});
+  for (std::size_t k = 0; k < state.moved_s[index].size(); ++k)
+    group.schedule[k].time_s += state.moved_s[index][k];
   group.initial_pressure_pa = state.initial_pressure_pa[index] + shift_pa;
   group.initial_temperature_k = state.initial_temperature_k[index];
   group.blocked = run.blocked;
@@ -360,9 +362,8 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   simulate.steps_max = options.steps_max;
   simulate.integrator = options.stiff ? model::Integrator::kImplicit : model::Integrator::kDamped;
   simulate.cancelled = options.cancelled;
-  simulate.record = options.recorded_alone && !RecordsMoreThanPressures(run)
-                        ? model::Record::kPressures
-                        : model::Record::kSamples;
+  simulate.record = options.recorded_alone && !RecordsMore(run.channels) ? model::Record::kPressures
+                                                                         : model::Record::kSamples;
   for (const double t_s : run.t_s) simulate.sample_times_s.push_back(t_s - StartOf(run));
   simulate.end_s = simulate.sample_times_s.back();
 
@@ -390,6 +391,8 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     prediction.derivatives[moved[j]] =
         ReadingOf(std::move(result.derivatives[j]), ambient ? run.ambient.pressure_pa : 0.0);
   }
+  const auto slope = [&](std::size_t j) { return &prediction.derivatives[j].pressure_pa; };
+  TakeGauge(run, state, parameters, slope, prediction.reading.pressure_pa);
   AddTableSlopes(*this, index, state, parameters, options, prediction);
   return prediction;
 }

@@ -20,6 +20,7 @@ constexpr double kLeastNoise = 1e-4;
 // beyond measure.
 constexpr double kShareMax = 0.95;
 
+constexpr double kTurnSigmas = 2.0;    // by which the instant of a command may be off
 constexpr double kFreedomLeast = 4.0;  // readings beyond the numbers that a fit has
 
 constexpr std::vector<double> Channels::*kSupporting[] = {
@@ -38,22 +39,28 @@ bool Jumps(std::vector<double> Channels::*channel) {
   return channel == &Channels::inlet_pressure_pa || channel == &Channels::flow_m3_per_s;
 }
 
-// When the valve turns, rising.
-std::vector<double> TurnsOf(const Run& run) {
-  std::vector<double> turns_s;
+// When the valve turns, rising, from the earliest to the latest.
+std::vector<std::pair<double, double>> TurnsOf(const Run& run) {
+  std::vector<std::pair<double, double>> turns_s;
   model::ValveState state = model::ValveState::kHold;
-  for (const model::ValveCommand& command : run.valve)
-    if (std::exchange(state, command.state) != command.state) turns_s.push_back(command.time_s);
+  for (std::size_t k = 0; k < run.valve.size(); ++k) {
+    if (std::exchange(state, run.valve[k].state) == run.valve[k].state) continue;
+    const double known_s = InstantUncertainty(run, k);
+    const double room_s = std::isfinite(known_s) ? kTurnSigmas * known_s : 0.0;
+    turns_s.emplace_back(run.valve[k].time_s - room_s, run.valve[k].time_s + room_s);
+  }
   return turns_s;
 }
 
-// Whether one of them lies between the neighbours of a sample.
-bool Beside(const std::vector<double>& turns_s, const std::vector<double>& t_s, std::size_t i) {
+// Whether one of them may lie between the neighbours of a sample.
+bool Beside(const std::vector<std::pair<double, double>>& turns_s, const std::vector<double>& t_s,
+            std::size_t i) {
   const auto [first, last] = std::equal_range(t_s.begin(), t_s.end(), t_s[i]);
   const double before_s = first == t_s.begin() ? t_s[i] : *std::prev(first);
   const double after_s = last == t_s.end() ? t_s[i] : *last;
-  const auto turn = std::lower_bound(turns_s.begin(), turns_s.end(), before_s);
-  return turn != turns_s.end() && *turn <= after_s;
+  return std::any_of(turns_s.begin(), turns_s.end(), [&](const std::pair<double, double>& turn) {
+    return turn.first <= after_s && turn.second >= before_s;
+  });
 }
 
 // The whitening of the usable samples.
@@ -70,7 +77,7 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
   signal.channel = channel;
   signal.sigma = noise.sigma_pa;
   const std::vector<double>& measured = Measured(run, signal);
-  const std::vector<double> turns_s = Jumps(channel) ? TurnsOf(run) : std::vector<double>();
+  const auto turns_s = Jumps(channel) ? TurnsOf(run) : std::vector<std::pair<double, double>>();
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool dropped = std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
                          std::binary_search(noise.near_end.begin(), noise.near_end.end(), i);
@@ -106,7 +113,8 @@ void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
     const double apart = std::abs(noise.sigma_pa / common_pa - 1.0);
     const bool own = apart > std::max(kOwnShare, kOwnErrors * noise.relative_error);
     if (!own) noise.sigma_pa = common_pa;
-    noise.sigma_pa = std::max(noise.sigma_pa, LeastNoise(dataset.runs[i]));
+    noise.sigma_pa = std::max(
+        {noise.sigma_pa, LeastNoise(dataset.runs[i]), RoundingPa(noise, dataset.runs[i].sensor)});
   }
 }
 
@@ -284,8 +292,8 @@ bool TakeNoiseOfFit(const Dataset& dataset, const std::vector<std::size_t>& runs
   bool less = false;
   for (const std::size_t run : too_loud) {
     Noise& noise = observed[run].noise;
-    const double rounding_pa = noise.quantum_pa / std::sqrt(12.0);
-    const double taken_pa = std::max({left_pa, rounding_pa, LeastNoise(dataset.runs[run])});
+    const double taken_pa = std::max(
+        {left_pa, RoundingPa(noise, dataset.runs[run].sensor), LeastNoise(dataset.runs[run])});
     double& sigma_pa = observed[run].signals.front().sigma;
     less = less || taken_pa < kHiddenLess * sigma_pa;
     sigma_pa = noise.sigma_pa = std::min(sigma_pa, taken_pa);

@@ -105,6 +105,7 @@ ModelState ExtendedData::With(ModelState state) const {
   state.clock_s.push_back(0.0);
   state.phase_rad.push_back(0.0);
   state.late_s.emplace_back();
+  state.moved_s.emplace_back(added.valve_uncertainty_s.size(), 0.0);
   return state;
 }
 

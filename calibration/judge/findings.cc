@@ -17,7 +17,7 @@
 namespace plenum::calibration {
 namespace {
 
-constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2;
+constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2, kInstantsTold = 6;
 constexpr std::string_view kNumber = "number:";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
@@ -244,6 +244,24 @@ void AddSeries(const Bench& bench, Diagnosis& diagnosis) {
   });
 }
 
+// "command 2 of r1 was fitted to be at 0.312 s": of those that no record has.
+static std::string InstantsInWords(const Bench& bench, const ModelState& state) {
+  std::string words;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < state.moved_s.size(); ++i) {
+    const Run& run = bench.dataset.runs[i];
+    for (std::size_t k = 0; k < state.moved_s[i].size(); ++k) {
+      if (InstantUncertainty(run, k) != kUnknown || ++found > kInstantsTold) continue;
+      char text[64];
+      std::snprintf(text, sizeof text, " at %.4g s", run.valve[k].time_s + state.moved_s[i][k]);
+      words += (words.empty() ? "command " : ", command ") + std::to_string(k + 1) + " of " +
+               run.id + text;
+    }
+  }
+  if (found > kInstantsTold) words += " and " + std::to_string(found - kInstantsTold) + " more";
+  return words;
+}
+
 void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
   std::size_t outliers = 0, clipped = 0, staircases = 0;
   for (const ObservedRun& run : bench.observed) {
@@ -263,6 +281,9 @@ void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
     if (IsCopy(bench, run))
       warnings.push_back("the runs " + bench.dataset.runs[bench.original[run]].id + " and " +
                          bench.dataset.runs[run].id + " have the same readings: they count once");
+  if (const std::string instants = InstantsInWords(bench, diagnosis.models.after.state);
+      !instants.empty())
+    warnings.push_back("instants that are not known were found in the readings: " + instants);
   if (bench.data.clocks)
     warnings.push_back(
         "the clocks of readings and valve are off by a part of a sample; each run's was fitted");

@@ -48,6 +48,9 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
     case Parameter::Kind::kLateness:
       return "time of command " + std::to_string(parameter.number + 1) + " of " +
              dataset.runs[parameter.run].id;
+    case Parameter::Kind::kInstant:
+      return "instant of command " + std::to_string(parameter.number + 1) + " of " +
+             dataset.runs[parameter.run].id;
     case Parameter::Kind::kDeclared:
       break;
   }

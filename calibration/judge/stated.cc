@@ -19,6 +19,7 @@ void TakeOver(std::size_t from, std::size_t to, StatedModel& model) {
   state.clock_s[to] = state.clock_s[from];
   state.phase_rad[to] = state.phase_rad[from];
   state.late_s[to] = state.late_s[from];
+  state.moved_s[to] = state.moved_s[from];
   model.run_factor[to] = model.run_factor[from];
 }
 

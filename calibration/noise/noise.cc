@@ -185,7 +185,7 @@ Record RecordOf(const Readings& readings, Noise& noise) {
   noise.outliers.clear();
   noise.repeat_freedom = noise.windows = 0;
   if (samples.y.size() < 4) return record;
-  const double rounding_pa = noise.quantum_pa / std::sqrt(12.0);
+  const double rounding_pa = RoundingPa(noise, readings.sensor);
   std::vector<double> deviations = TakeRepeats(samples, noise.repeat_freedom);
   if (noise.repeat_freedom > 0) {
     noise.repeat_sigma_pa = Rms(deviations);  // each is scaled to one reading's variance
@@ -278,12 +278,13 @@ void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) 
   }
 }
 
-// The ends of the sensor's range. One sensor: what one run shows of it holds in all, unless another
-// reads beyond.
-void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
+// Of the runs whose sensor has no stated range the ends that its readings show. One sensor: what
+// one run shows of it holds in all, unless another reads beyond.
+void GuessEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   double lowest = high, highest = low;
   for (std::size_t j = 0; j < all.size(); ++j) {
+    if (all[j].sensor.HasRange()) continue;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const double y : all[j].y)
       if (std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
@@ -301,12 +302,25 @@ void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
   if (high < highest - same) high = std::numeric_limits<double>::infinity();
   if (low > lowest + same) low = -std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < all.size(); ++j) {
+    if (all[j].sensor.HasRange()) continue;
     noises[j].clip_low_pa = low;
     noises[j].clip_high_pa = high;
     std::erase_if(noises[j].clipped, [&](std::size_t i) {
       const double y = all[j].y[i];
       return y < high - same && y > low + same;
     });
+  }
+}
+
+void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
+  GuessEnds(all, noises);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    if (all[j].sensor.HasRange()) {
+      StatedEnds ends = EndsOf(all[j].y, all[j].sensor);
+      noises[j].clip_low_pa = ends.low;
+      noises[j].clip_high_pa = ends.high;
+      noises[j].clipped = std::move(ends.clipped);
+    }
     noises[j].near_end = noises[j].clipped;
   }
 }
@@ -320,6 +334,10 @@ double QuantumWithin(const Readings& readings, const Noise& noise) {
 }
 
 }  // namespace
+
+double RoundingPa(const Noise& noise, const Sensor& sensor) {
+  return std::max(noise.quantum_pa, sensor.resolution_pa) / std::sqrt(12.0);
+}
 
 std::vector<Noise> EstimateNoise(std::span<const Readings> all) {
   std::vector<Noise> noises(all.size());
@@ -336,15 +354,15 @@ std::vector<Noise> EstimateNoise(std::span<const Readings> all) {
     if (noise.near_end.size() > noise.clipped.size()) records.back() = RecordOf(all[j], noise);
   }
   TakeMemory(records, noises);
-  for (Noise& noise : noises)
-    noise.sigma_pa = std::max(noise.sigma_pa, noise.quantum_pa / std::sqrt(12.0));
+  for (std::size_t j = 0; j < noises.size(); ++j)
+    noises[j].sigma_pa = std::max(noises[j].sigma_pa, RoundingPa(noises[j], all[j].sensor));
   return noises;
 }
 
 Noise EstimateNoise(const Readings& readings) { return EstimateNoise({&readings, 1}).front(); }
 
 Readings ReadingsOf(const Run& run) {
-  Readings readings{run.t_s, run.pressure_pa, {}, {}};
+  Readings readings{run.t_s, run.pressure_pa, {}, {}, run.sensor};
   for (const PhaseSpan& span : PhasesOf(run)) {
     const bool closed = span.phase == Phase::kRest || span.phase == Phase::kHold;
     (closed ? readings.quiet : readings.strokes).push_back({span.start_s, span.end_s});

@@ -6,7 +6,8 @@
 // windows are taken where the signal is quiet; samples of one instant enter as differences of
 // pairs. What the noise remembers is read by likelihood (quiet_memory.h), and σ with it. Readings
 // on a grid of step q carry q²/12 of their own (Widrow); where the other noise is below about q/2
-// the differences of a staircase tell nothing, and q²/12 is the least that is reported.
+// the differences of a staircase tell nothing, and q²/12 is the least that is reported. Where the
+// sensor's range is stated its ends are not guessed, and its resolution is the least that q is.
 //
 // The relative standard error of σ from n windows is 1.07/√n: 5 % needs 450. Noise that depends on
 // the pressure is seen at the quiet places alone. Sources: Gasser, Sroka & Jennen-Steinmetz,
@@ -54,6 +55,9 @@ struct Noise {
   double clip_low_pa = -std::numeric_limits<double>::infinity();
   double clip_high_pa = std::numeric_limits<double>::infinity();
 };
+
+// Standard deviation of the rounding, to the readings' grid or the sensor's stated resolution.
+double RoundingPa(const Noise& noise, const Sensor& sensor);
 
 Noise EstimateNoise(const Readings& readings);
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kGridTolerance = 0.1;   // of the quantum
 constexpr double kSameValue = 1e-9;      // of the range: rounding of unit conversions
+constexpr double kSameEnd = 1e-6;        // of the sensor's range
 constexpr std::size_t kDistinctMin = 8;  // values on a grid by chance: 0.2^6
 constexpr std::size_t kClipLengthMin = 4;
 constexpr double kClipChance = 1e-3;
@@ -210,6 +211,20 @@ double Extrapolate(std::span<const double> t_s, std::span<const double> y, doubl
   }
   if (gain2) *gain2 = squares;
   return value;
+}
+
+StatedEnds EndsOf(std::span<const double> y, const Sensor& sensor) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double same =
+      std::max(0.5 * sensor.resolution_pa, kSameEnd * (sensor.high_pa - sensor.low_pa));
+  StatedEnds ends{sensor.low_pa, sensor.high_pa, {}};
+  for (const double value : y) {
+    if (value < sensor.low_pa - same) ends.low = -kInfinity;
+    if (value > sensor.high_pa + same) ends.high = kInfinity;
+  }
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (y[i] <= ends.low + same || y[i] >= ends.high - same) ends.clipped.push_back(i);
+  return ends;
 }
 
 std::vector<std::size_t> NearEnds(std::span<const double> y, double low, double high,

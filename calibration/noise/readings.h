@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "calibration/values/dataset.h"
+
 namespace plenum::calibration {
 
 // Readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and
@@ -17,6 +19,7 @@ struct TimeSpan {
 struct Readings {
   std::span<const double> t_s, y;
   std::vector<TimeSpan> quiet, strokes;
+  Sensor sensor = {};
 };
 
 // Step q of the grid that the finite values lie on, each within q/10; 0 if they lie on none. Asked
@@ -36,6 +39,14 @@ double Quantum(std::span<const double> y);
 // at that value and it lies between the lines of the grid that all others lie on, by more than a
 // tenth of its step.
 std::vector<std::size_t> Clipped(const Readings& readings);
+
+// Of a sensor whose range is stated: the ends beyond which none of the readings lies by more than
+// half of its resolution, −∞ and ∞ of the others, and which of the readings lie at those ends.
+struct StatedEnds {
+  double low, high;
+  std::vector<std::size_t> clipped;
+};
+StatedEnds EndsOf(std::span<const double> y, const Sensor& sensor);
 
 // Indices of readings whose median with five neighbours on either side comes within `margin` of an
 // end of the range, low or high (infinite where there is none).

@@ -13,9 +13,9 @@ constexpr double kLeastAmbientPa = 50e3, kMostAmbientPa = 110e3;  // on land
 
 std::string_view Name(Declared number) {
   static constexpr std::array<std::string_view, kDeclaredCount> kNames = {
-      "rest_volume",         "expansion_ratio",   "operating_pressure",
-      "source_pressure",     "sonic_conductance", "critical_ratio",
-      "tube_inner_diameter", "reservoir_volume",  "ambient_pressure"};
+      "rest_volume",       "expansion_ratio", "operating_pressure",  "source_pressure",
+      "sonic_conductance", "critical_ratio",  "tube_inner_diameter", "reservoir_volume",
+      "ambient_pressure",  "sensor_zero",     "sensor_gain"};
   return kNames[static_cast<std::size_t>(number)];
 }
 
@@ -58,6 +58,9 @@ bool Has(const Run& run, Declared number) {
     case Declared::kAmbientPressure:  // where no record of another gauge and no pump's curve has it
       return (run.supply == Supply::kNone || run.supply == Supply::kRegulated) &&
              run.channels.source_pressure_pa.empty() && run.channels.inlet_pressure_pa.empty();
+    case Declared::kSensorZero:
+    case Declared::kSensorGain:
+      return run.sensor.accuracy_pa > 0.0;
     case Declared::kRestVolume:
       break;
   }
@@ -65,9 +68,18 @@ bool Has(const Run& run, Declared number) {
                       [](const MeasuredPlace& place) { return place.of == Of::kVolume; });
 }
 
+bool RecordsMore(const Channels& channels) {
+  return !channels.inlet_pressure_pa.empty() || !channels.temperature_k.empty() ||
+         !channels.volume_m3.empty() || !channels.flow_m3_per_s.empty();
+}
+
 double StartOf(const Run& run) {
   const double first_sample_s = run.t_s.empty() ? 0.0 : run.t_s.front();
   return run.valve.empty() ? first_sample_s : std::min(first_sample_s, run.valve.front().time_s);
+}
+
+double InstantUncertainty(const Run& run, std::size_t command) {
+  return command < run.valve_uncertainty_s.size() ? run.valve_uncertainty_s[command] : 0.0;
 }
 
 double FirstReading(const Run& run) {

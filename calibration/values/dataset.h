@@ -6,6 +6,7 @@
 #define PLENUM_CALIBRATION_VALUES_DATASET_H_
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,9 +29,15 @@ enum class Declared {
   kCriticalRatio,
   kTubeInnerDiameter,
   kReservoirVolume,
-  kAmbientPressure  // under which gauges and valves work; where it is wrong, all pressures are
+  kAmbientPressure,  // under which gauges and valves work; where it is wrong, all pressures are
+  // Of the gauge, where its accuracy is stated (Sensor): the readings are
+  //   gain·p + (zero − 1)·kSensorZeroPa,  p the gauge pressure.
+  kSensorZero,
+  kSensorGain
 };
-inline constexpr int kDeclaredCount = 9;
+inline constexpr int kDeclaredCount = 11;
+inline constexpr int kOfTheRig = 9;  // the first ones, of which documents state the uncertainty
+inline constexpr double kSensorZeroPa = 1e5;
 std::string_view Name(Declared number);
 
 inline constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -49,10 +56,23 @@ struct LinePiece {
 // reservoir.
 enum class Supply { kNone, kRegulated, kMeasured, kCompressor, kFlow };
 
+// What is known of the gauge in the chamber. Pressures absolute.
+struct Sensor {
+  // Readings at an end are cut off there; infinite where an end is not known.
+  double low_pa = -std::numeric_limits<double>::infinity();
+  double high_pa = std::numeric_limits<double>::infinity();
+  double resolution_pa = 0.0;  // steps of the readings
+  double accuracy_pa = 0.0;    // one standard deviation of its zero; 0: the zero is right
+  bool HasRange() const { return low_pa < high_pa && std::isfinite(high_pa - low_pa); }
+};
+
 struct Channels {  // each empty, or as long as t_s
   std::vector<double> source_pressure_pa, inlet_pressure_pa, temperature_k, volume_m3;
   std::vector<double> flow_m3_per_s;  // ANR, into the line
 };
+
+// Whether any but the source's pressure is recorded.
+bool RecordsMore(const Channels& channels);
 
 // A number of a part of the catalogue that runs are to measure: fitted freely, whatever is
 // declared. A pump's delivery is measured at the points of its table, as what it falls by from each
@@ -80,7 +100,15 @@ struct MeasuredPlaces {
   std::vector<std::size_t> delivery;  // by point of the compressor's curve, or none
 };
 
-struct Run {
+// What is stated of the record itself.
+struct Recorded {
+  Sensor sensor;
+  // By command one standard deviation of its instant, 0: exact, kUnknown: not known, and the
+  // instant that stands there is a guess. Empty: all are exact.
+  std::vector<double> valve_uncertainty_s;
+};
+
+struct Run : Recorded {
   std::string id;
   // The rig as declared for this run.
   model::Ambient ambient;
@@ -107,6 +135,9 @@ bool Has(const Run& run, Declared number);
 
 // The time at which a run begins: the first sample or the first command, whichever is earlier.
 double StartOf(const Run& run);
+
+// Of a command's instant; 0 where none is stated.
+double InstantUncertainty(const Run& run, std::size_t command);
 
 // Mean of the readings before the valve first opens, at most ten; the first one if it is open from
 // the start. Absolute.

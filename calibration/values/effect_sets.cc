@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 #include "calibration/values/crossing.h"
 #include "model/effects/registry.h"
@@ -25,6 +26,9 @@ model::EffectPlace PlaceOf(Declared number) {
       return model::EffectPlace::kLine;
     case Declared::kAmbientPressure:
       return model::EffectPlace::kChamber;
+    case Declared::kSensorZero:
+    case Declared::kSensorGain:
+      return model::EffectPlace::kSensor;
     case Declared::kRestVolume:
     case Declared::kExpansionRatio:
     case Declared::kOperatingPressure:
@@ -69,6 +73,17 @@ bool WasEvacuated(const Run& run) {
                      [&](double pa) { return pa < kEvacuated * run.ambient.pressure_pa; });
 }
 
+// Whether no command that turns the valve has an instant of which anything is known: all may come
+// as late as they like.
+bool AnyTimeWillDo(const Run& run) {
+  model::ValveState state = model::ValveState::kHold;
+  for (std::size_t k = 0; k < run.valve.size(); ++k)
+    if (std::exchange(state, run.valve[k].state) != run.valve[k].state &&
+        InstantUncertainty(run, k) != kUnknown)
+      return false;
+  return true;
+}
+
 bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
   using enum model::EffectPlace;
   const auto opens = [](const Run& run) {
@@ -77,6 +92,8 @@ bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
     });
   };
   if (spec.id == "outgassing") return std::any_of(runs.begin(), runs.end(), WasEvacuated);
+  if (spec.id == "valve_delay" && std::all_of(runs.begin(), runs.end(), AnyTimeWillDo))
+    return false;
   const bool fed = spec.place == kValve || spec.place == kLine || spec.place == kSupply;
   return !fed || std::any_of(runs.begin(), runs.end(), opens);
 }
@@ -138,7 +155,7 @@ EffectSet NamedEffects(const std::vector<Run>& runs) {
 
 EffectSet NumbersThatMayBeWrong(const Dataset& dataset) {
   EffectSet numbers;
-  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
+  for (std::size_t k = 0; k < kOfTheRig; ++k) {
     const auto number = static_cast<Declared>(k);
     const model::EffectSpec& spec = Freeing(number);
     const bool known = dataset.relative_uncertainty[k] != kUnknown;

@@ -40,7 +40,8 @@ EffectSet NamedEffects(const std::vector<Run>& runs);
 
 // The declared numbers that may be wrong and of which the runs can tell, the unknown ones apart,
 // which are fitted freely as it is. Nor is the operating pressure one: it is no property of the rig
-// but the point at which the expansion ratio holds, and both have one effect on the volume.
+// but the point at which the expansion ratio holds, and both have one effect on the volume. Zero
+// and gain of the gauge beyond its accuracy are the effects sensor_offset and sensor_gain.
 EffectSet NumbersThatMayBeWrong(const Dataset& dataset);
 
 // What a set may hold: those effects, then those numbers.

@@ -18,6 +18,8 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
       return state.phase_rad[parameter.run];
     case Parameter::Kind::kLateness:
       return state.late_s[parameter.run][parameter.number];
+    case Parameter::Kind::kInstant:
+      return state.moved_s[parameter.run][parameter.number];
     case Parameter::Kind::kDeclared:
       break;
   }
@@ -40,6 +42,7 @@ void CopyRun(const ModelState& from, std::size_t run, ModelState& to) {
   to.clock_s[run] = from.clock_s[run];
   to.phase_rad[run] = from.phase_rad[run];
   to.late_s[run] = from.late_s[run];
+  to.moved_s[run] = from.moved_s[run];
 }
 
 }  // namespace plenum::calibration

@@ -33,6 +33,8 @@ struct ModelState {
   std::vector<double> phase_rad;              // by run
   // By run and command; empty: none is late but by what the effect itself says.
   std::vector<std::vector<double>> late_s;
+  // By run and command, by how much its instant is after the recorded one; empty: by nothing.
+  std::vector<std::vector<double>> moved_s;
 };
 
 // One number of a model state.
@@ -45,12 +47,14 @@ struct Parameter {
     kInitialTemperature,
     kClock,
     kPhase,
-    kLateness
+    kLateness,
+    kInstant
   };
   Kind kind = Kind::kDeclared;
   Declared declared = Declared::kRestVolume;  // kDeclared
   std::size_t effect = 0, number = 0;  // kEffect: of the list, of its parameters; kMeasured: of
-                                       // Dataset::measured; kLateness: of the run's commands
+                                       // Dataset::measured; kLateness, kInstant: of the run's
+                                       // commands
   std::size_t run = 0;                 // of one run's own number
   bool operator==(const Parameter&) const = default;
 };

@@ -10,7 +10,7 @@ export interface Run {
   blocked?: boolean;
   source_pressure_kpa_gauge?: number | string; // a text has its unit
   initial?: { pressure_kpa_gauge: number };
-  valve: { t_s: number; state: ValveState }[];
+  valve: { t_s: number; state: ValveState; uncertainty_s?: number | string }[];
   t_s: number[];
   pressure_kpa_gauge: (number | null)[];
   channels?: Record<string, (number | null)[]>;
@@ -61,6 +61,7 @@ export interface RunNumbers {
   initial_pressure_kpa_gauge: number;
   initial_temperature_k: number;
   clock_s: number;
+  valve_s?: number[]; // instants of the commands, where they are not exact
   fitted_alone?: string[]; // of a run held out
 }
 
@@ -267,13 +268,16 @@ export interface Shade {
   colour: string;
 }
 
-// Shades behind a plot: what the valve was told.
+// Shades behind a plot: what the valve was told, but for commands whose instant a file calls
+// unknown.
 export const shadesOf = (valve: Run['valve'] | undefined, end: number): Shade[] =>
-  (valve ?? []).map((command, i, all) => ({
-    from: command.t_s,
-    to: all[i + 1]?.t_s ?? end,
-    colour: phaseOf[command.state],
-  }));
+  (valve ?? [])
+    .filter((command) => Number.isFinite(command.t_s))
+    .map((command, i, all) => ({
+      from: command.t_s,
+      to: all[i + 1]?.t_s ?? end,
+      colour: phaseOf[command.state],
+    }));
 
 // What the page has open, the file's own text while it is as it was, and what the service finds
 // wrong with it.

@@ -33,6 +33,7 @@ export function NumbersOfRuns({ d }: { d: Diagnosis }) {
           number('start', unitOf('pressure')),
           extra(number('temperature', 'K')),
           number('clock late', 'ms'),
+          extra(number('valve turns at', 's')),
         ]}
       >
         {d.runs.flatMap((run) =>
@@ -48,6 +49,9 @@ export function NumbersOfRuns({ d }: { d: Diagnosis }) {
               <td class="num">{shown('pressure', run[name]?.initial_pressure_kpa_gauge, 5)}</td>
               <td class="num extra">{significant(run[name]?.initial_temperature_k, 4)}</td>
               <td class="num">{significant(1e3 * (run[name]?.clock_s ?? 0))}</td>
+              <td class="num extra">
+                {(run[name]?.valve_s ?? []).map((t_s) => significant(t_s, 4)).join(', ')}
+              </td>
             </tr>
           )),
         )}
