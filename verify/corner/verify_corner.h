@@ -67,11 +67,18 @@ class Corners {
   // `sum` with the least of the bottles and batteries that hold so much.
   double LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored, double sum);
 
+  // Of the most actuators of a group that fill at once behind the regulator, at least; +∞: later
+  // than its limits.
+  double InflateSeconds(const BestLine& line, int group, const SourceBounds& source,
+                        const std::pair<int, int>& regulators);
+
   const Problem& problem_;
   const ProofPlan& plan_;
   KnownStrokes& strokes_;
   std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
   std::map<SlotRange, LeastAmounts> least_;
+  std::map<SlotRange, Packs> packs_;
+  std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
   std::optional<Pumps> pumps_;
   std::optional<DirectPumps> direct_;
 };

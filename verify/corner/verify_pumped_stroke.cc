@@ -11,7 +11,7 @@ namespace {
 constexpr int kStepsClosed = 24;
 constexpr int kCoarse = 4;                 // panels in one, at first
 constexpr double kClearly = 0.85;          // of a limit: finer panels would not change it
-constexpr double kSourceTolerance = 2e-5;  // of pressures: what is pumped by the end of a panel
+constexpr double kSourceTolerance = 1e-4;  // of pressures: what is pumped by the end of a panel
 constexpr double kEqualTolerance = 1e-4;   // of the pressure where all are equal
 constexpr int kEqualLooksMax = 12;
 constexpr double kFlowSlack = 1.0 + 1e-4;  // of the flow table
@@ -45,7 +45,7 @@ class Stroke {
 
   PumpedStroke Run() {
     PumpedStroke stroke;
-    const bool filled = Fill(kUnlimited, 1);
+    const bool filled = Fill(kUnlimited, 2);
     stroke.rise_s = rise_s_;
     if (!filled) return stroke;
     stroke.inflate_s = seconds_;

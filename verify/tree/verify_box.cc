@@ -6,8 +6,9 @@
 namespace plenum::verify {
 namespace {
 
-std::string IdOf(const Problem& problem, Family family, const ProofItem& item) {
-  return item.part == -2 ? "custom" : BasicsOf(problem.parts, family, item.part).id;
+const std::string& IdOf(const Problem& problem, Family family, const ProofItem& item) {
+  static const std::string custom = "custom";
+  return item.part == -2 ? custom : BasicsOf(problem.parts, family, item.part).id;
 }
 
 int SizeOf(const std::pair<int, int>& range) { return range.second - range.first; }
@@ -39,14 +40,14 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   for (const ProofSlot& place : listed.slots) {
     const int slot = SlotOf(plan, place.family, place.group);
     if (slot < 0) continue;
-    std::optional<Ids::value_type> first;
+    std::optional<std::pair<std::string_view, int>> first;
     for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
       const ProofItem& item = plan.slots[slot].choices[i];
       if (item.part == -1) continue;
-      Ids::value_type id{IdOf(problem, place.family, item), item.quantity};
-      if (!first || id < *first) first = std::move(id);
+      const std::pair<std::string_view, int> id{IdOf(problem, place.family, item), item.quantity};
+      if (!first || id < *first) first = id;
     }
-    if (first) ids.push_back(std::move(*first));
+    if (first) ids.emplace_back(first->first, first->second);
   }
   return ids;
 }
