@@ -53,14 +53,20 @@ double GasOf(const Problem& problem, Family family, const ProofItem& item, doubl
 }  // namespace
 
 Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes)
-    : problem_(problem), plan_(plan), strokes_(strokes), amounts_(AmountsOfAll(problem, plan)) {
+    : problem_(problem),
+      plan_(plan),
+      strokes_(strokes),
+      amounts_(AmountsOfAll(problem, plan)),
+      least_(plan.slots.size()) {
   if (KeepsReservoir(plan.configuration)) pumps_.emplace(problem, plan, amounts_, strokes);
   if (IsDirect(plan.configuration)) direct_.emplace(problem, plan, amounts_, strokes);
 }
 
 const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
   const auto [first, last] = ranges[slot];
-  const auto [entry, fresh] = least_.try_emplace({slot, first, last});
+  const std::uint64_t range =
+      static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(last);
+  const auto [entry, fresh] = least_[slot].try_emplace(range);
   LeastAmounts& found = entry->second;
   if (!fresh) return found;
   ItemAmounts& least = found.least;

@@ -3,7 +3,9 @@
 #define PLENUM_VERIFY_CORNER_VERIFY_CORNER_H_
 
 #include <array>
+#include <cstdint>
 #include <map>
+#include <unordered_map>
 
 #include "verify/corner/verify_best.h"
 #include "verify/corner/verify_direct.h"
@@ -75,8 +77,8 @@ class Corners {
   const Problem& problem_;
   const ProofPlan& plan_;
   KnownStrokes& strokes_;
-  std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
-  std::map<SlotRange, LeastAmounts> least_;
+  std::vector<std::vector<ItemAmounts>> amounts_;                       // per slot and choice
+  std::vector<std::unordered_map<std::uint64_t, LeastAmounts>> least_;  // per slot, by range
   std::map<SlotRange, Packs> packs_;
   std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
   std::optional<Pumps> pumps_;

@@ -27,13 +27,15 @@ bool MayConflict(const Problem& problem, int g) {
 
 KnownStrokes::KnownStrokes(const Problem& problem, const ProofPlan& plan)
     : problem_(problem), plan_(plan) {
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    slots_.push_back({SlotOf(plan, Family::kTubing, g), SlotOf(plan, Family::kFitting, g),
+                      SlotOf(plan, Family::kValve, g)});
   if (IsPumped(plan.configuration)) pumps_.emplace(problem, plan);
 }
 
 const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
-  const auto& tubes = ranges[SlotOf(plan_, Family::kTubing, g)];
-  const auto& fittings = ranges[SlotOf(plan_, Family::kFitting, g)];
-  const auto& valves = ranges[SlotOf(plan_, Family::kValve, g)];
+  const auto& [tubing, fitting, valve] = slots_[g];
+  const auto &tubes = ranges[tubing], &fittings = ranges[fitting], &valves = ranges[valve];
   const auto [entry, fresh] = lines_.try_emplace(
       {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
   if (!fresh) return entry->second;
