@@ -187,22 +187,43 @@ bool FillTogetherUntilFull(const ReservoirStrokeInput& in, State& y, double from
   return FillFromFull(in, y, low, to);
 }
 
-// Fills to `end` in one piece by `fill`, or up to the pressure that is reached when time is up.
-// False if neither happens.
+// Fills to `end` in one piece by `fill`, or up to the pressure that is reached when time is up: by
+// where the line between both ends crosses, and a little beyond; by halves where that fails. False
+// if neither happens.
 template <class Fill>
 bool FillUntil(const Fill& fill, State& y, double& p, double end, double until_s) {
   constexpr double kPressureTolerance = 1e-11;
   const State before = y;
-  if (fill(y, p, end) && y[0] <= until_s) {
+  const bool reached_end = fill(y, p, end);
+  if (reached_end && y[0] <= until_s) {
     p = end;
     return true;
   }
   if (std::isinf(until_s)) return false;
-  double low = p, high = end;
-  while (high - low > kPressureTolerance * end) {
-    const double middle = 0.5 * (low + high);
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  double low = p, high = end, short_s = until_s - before[0];
+  double late_s = reached_end ? y[0] - until_s : kNever;
+  const auto width = [&] { return high - low; };
+  const auto narrow = [&](double to) {
     y = before;
-    (fill(y, p, middle) && y[0] <= until_s ? low : high) = middle;
+    const bool reached = fill(y, p, to);
+    if (reached && y[0] <= until_s) {
+      low = to;
+      short_s = until_s - y[0];
+    } else {
+      high = to;
+      late_s = reached ? y[0] - until_s : kNever;
+    }
+  };
+  while (width() > kPressureTolerance * end) {
+    const double before_width = width(), step = 0.4 * kPressureTolerance * end;
+    const double crossing = low + before_width * short_s / (short_s + late_s);
+    if (std::isfinite(late_s) && width() > 2.0 * step) {
+      narrow(std::clamp(crossing, low + step, high - step));
+      const double other = crossing + (low >= crossing ? step : -step);
+      if (other > low && other < high) narrow(other);
+    }
+    if (width() > 0.5 * before_width) narrow(low + 0.5 * width());
   }
   y = before;
   if (low > p && !fill(y, p, low)) return false;

@@ -53,14 +53,20 @@ double GasOf(const Problem& problem, Family family, const ProofItem& item, doubl
 }  // namespace
 
 Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes)
-    : problem_(problem), plan_(plan), strokes_(strokes), amounts_(AmountsOfAll(problem, plan)) {
+    : problem_(problem),
+      plan_(plan),
+      strokes_(strokes),
+      amounts_(AmountsOfAll(problem, plan)),
+      least_(plan.slots.size()) {
   if (KeepsReservoir(plan.configuration)) pumps_.emplace(problem, plan, amounts_, strokes);
   if (IsDirect(plan.configuration)) direct_.emplace(problem, plan, amounts_, strokes);
 }
 
 const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
   const auto [first, last] = ranges[slot];
-  const auto [entry, fresh] = least_.try_emplace({slot, first, last});
+  const std::uint64_t range =
+      static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(last);
+  const auto [entry, fresh] = least_[slot].try_emplace(range);
   LeastAmounts& found = entry->second;
   if (!fresh) return found;
   ItemAmounts& least = found.least;
@@ -200,23 +206,9 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
     const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
     const SourceBounds& source = plan_.own_regulators ? sources[g] : first;
-    const double count = MostAtOnce(problem_, g), strokes = group.gait.strokes_per_period;
-    std::vector<model::FlowElement> elements = line.fill;
-    if (!source.some_open) {
-      model::FlowElement share = source.regulator.Flow("sonic_conductance_dm3_per_s_bar");
-      share.sonic_conductance_m3_per_s_pa /= count;
-      elements.insert(elements.begin(), share);
-    }
-    const model::Series fill = model::MakeSeries(elements, factor);
-    const auto seconds = [&](double to_pa) {
-      return model::FillTime(fill, line.chamber, source.high_pa, problem_.ambient.pressure_pa,
-                             to_pa, temperature_k, source.flow_max / count);
-    };
-    const double inflate_s = seconds(group.chamber.operating_pressure_pa);
-    if (inflate_s > FillWindow(problem_, g) * kSlack) return kUnlimited;
-    if (inflate_s > group.rise_time_max_s &&
-        seconds(PressureAt(problem_, g, problem_.rise_fraction)) > group.rise_time_max_s * kSlack)
-      return kUnlimited;
+    const double strokes = group.gait.strokes_per_period;
+    const double inflate_s = InflateSeconds(line, g, source, ranges[RegulatorSlot(g)]);
+    if (std::isinf(inflate_s)) return kUnlimited;
     // At least: a valve that cannot hold may be open for no longer than that takes.
     air_m3 += strokes * model::StandardVolume(
                             Drawn(problem_, g, line.chamber, group.chamber.operating_pressure_pa),
@@ -234,6 +226,32 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   if (plan_.configuration == Configuration::kTank)
     return sum + LeastTank(ranges, inlets, first, air_m3) + LeastBattery(ranges, energy_j);
   return LeastStores(ranges, inlets, {air_m3, energy_j}, sum);
+}
+
+double Corners::InflateSeconds(const BestLine& line, int g, const SourceBounds& source,
+                               const std::pair<int, int>& regulators) {
+  const auto [entry, fresh] =
+      inflate_s_.try_emplace({&line, regulators.first, regulators.second, source.high_pa}, 0.0);
+  if (!fresh) return entry->second;
+  const ActuatorGroup& group = problem_.groups[g];
+  const double count = MostAtOnce(problem_, g);
+  std::vector<model::FlowElement> elements = line.fill;
+  if (!source.some_open) {
+    model::FlowElement share = source.regulator.Flow("sonic_conductance_dm3_per_s_bar");
+    share.sonic_conductance_m3_per_s_pa /= count;
+    elements.insert(elements.begin(), share);
+  }
+  const model::Series fill = model::MakeSeries(elements, FactorOf(problem_, plan_.configuration));
+  const auto seconds = [&](double to_pa) {
+    return model::FillTime(fill, line.chamber, source.high_pa, problem_.ambient.pressure_pa, to_pa,
+                           problem_.ambient.temperature_k, source.flow_max / count);
+  };
+  const double inflate_s = seconds(group.chamber.operating_pressure_pa);
+  const bool late =
+      inflate_s > FillWindow(problem_, g) * kSlack ||
+      (inflate_s > group.rise_time_max_s &&
+       seconds(PressureAt(problem_, g, problem_.rise_fraction)) > group.rise_time_max_s * kSlack);
+  return entry->second = late ? kUnlimited : inflate_s;
 }
 
 // The air of the mission is in any fill, above what stays; without a regulator the last stroke may
@@ -260,15 +278,21 @@ double Corners::LeastTank(const Ranges& ranges, const Inlets& inlets, const Sour
 
 double Corners::LeastBattery(const Ranges& ranges, double energy_j) {
   const int slot = SlotOf(plan_, Family::kBattery, -1);
-  double objective = kUnlimited;
-  for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
-    const ProofItem& item = plan_.slots[slot].choices[i];
-    const model::Battery& pack = problem_.parts.batteries[item.part];
-    if (item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) * kSlack >=
-        energy_j)
-      objective = std::min(objective, amounts_[slot][i].objective);
+  const auto [first, last] = ranges[slot];
+  const SlotRange key{slot, first, last};
+  auto known = packs_.find(key);
+  if (known == packs_.end()) {
+    std::vector<Packs::Pack> packs;
+    for (int i = first; i < last; ++i) {
+      const ProofItem& item = plan_.slots[slot].choices[i];
+      const model::Battery& pack = problem_.parts.batteries[item.part];
+      packs.push_back(
+          {item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v),
+           amounts_[slot][i].objective});
+    }
+    known = packs_.emplace(key, Packs(std::move(packs))).first;
   }
-  return objective;
+  return known->second.Least(energy_j);
 }
 
 double Corners::LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored,

@@ -3,7 +3,9 @@
 #define PLENUM_VERIFY_CORNER_VERIFY_CORNER_H_
 
 #include <array>
+#include <cstdint>
 #include <map>
+#include <unordered_map>
 
 #include "verify/corner/verify_best.h"
 #include "verify/corner/verify_direct.h"
@@ -67,11 +69,18 @@ class Corners {
   // `sum` with the least of the bottles and batteries that hold so much.
   double LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored, double sum);
 
+  // Of the most actuators of a group that fill at once behind the regulator, at least; +∞: later
+  // than its limits.
+  double InflateSeconds(const BestLine& line, int group, const SourceBounds& source,
+                        const std::pair<int, int>& regulators);
+
   const Problem& problem_;
   const ProofPlan& plan_;
   KnownStrokes& strokes_;
-  std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
-  std::map<SlotRange, LeastAmounts> least_;
+  std::vector<std::vector<ItemAmounts>> amounts_;                       // per slot and choice
+  std::vector<std::unordered_map<std::uint64_t, LeastAmounts>> least_;  // per slot, by range
+  std::map<SlotRange, Packs> packs_;
+  std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
   std::optional<Pumps> pumps_;
   std::optional<DirectPumps> direct_;
 };

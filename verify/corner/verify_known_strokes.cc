@@ -27,13 +27,15 @@ bool MayConflict(const Problem& problem, int g) {
 
 KnownStrokes::KnownStrokes(const Problem& problem, const ProofPlan& plan)
     : problem_(problem), plan_(plan) {
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    slots_.push_back({SlotOf(plan, Family::kTubing, g), SlotOf(plan, Family::kFitting, g),
+                      SlotOf(plan, Family::kValve, g)});
   if (IsPumped(plan.configuration)) pumps_.emplace(problem, plan);
 }
 
 const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
-  const auto& tubes = ranges[SlotOf(plan_, Family::kTubing, g)];
-  const auto& fittings = ranges[SlotOf(plan_, Family::kFitting, g)];
-  const auto& valves = ranges[SlotOf(plan_, Family::kValve, g)];
+  const auto& [tubing, fitting, valve] = slots_[g];
+  const auto &tubes = ranges[tubing], &fittings = ranges[fitting], &valves = ranges[valve];
   const auto [entry, fresh] = lines_.try_emplace(
       {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
   if (!fresh) return entry->second;
@@ -99,24 +101,33 @@ bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {
                                    start_pa + ContentPerVolume(problem_) * pumped_m3 / v.low_m3,
                                    ambient_pa, target_pa, temperature_k) > limit_s * kSlack)
     return true;
-  const PumpedStroke fastest = FastestStroke(problem_, *pumps_, pumps, line, g, v, start_pa);
-  return fastest.rise_s > limit_s * kSlack || std::isinf(fastest.inflate_s);
+  return !MayFill(problem_, *pumps_, pumps, line, g, v, start_pa, limit_s * kSlack);
 }
 
 std::optional<double> KnownStrokes::LeastStartLeaving(const Query& query, double end_pa,
                                                       double low_pa, double high_pa) const {
-  const auto leaves = [&](double start_pa) {
-    return FastestStroke(problem_, *pumps_, query.pumps, query.line, query.group, query.volumes,
-                         start_pa)
-                   .end_pa *
-               kSlack >=
-           end_pa;
+  const auto missing = [&](double start_pa) {
+    return end_pa - kSlack * FastestStroke(problem_, *pumps_, query.pumps, query.line, query.group,
+                                           query.volumes, start_pa)
+                                 .end_pa;
   };
-  if (leaves(low_pa)) return low_pa;
-  if (!leaves(high_pa)) return std::nullopt;
+  double low_missing = missing(low_pa);
+  if (low_missing <= 0.0) return low_pa;
+  double high_missing = missing(high_pa);
+  if (high_missing > 0.0) return std::nullopt;
+  const auto narrow = [&](double start_pa) {
+    const double here = missing(start_pa);
+    (here <= 0.0 ? high_pa : low_pa) = start_pa;
+    (here <= 0.0 ? high_missing : low_missing) = here;
+  };
+  // About a straight line: a little below and above where it crosses; by halves where that fails.
   while (high_pa - low_pa > kStartTolerance * high_pa) {
-    const double middle_pa = 0.5 * (low_pa + high_pa);
-    (leaves(middle_pa) ? high_pa : low_pa) = middle_pa;
+    const double width_pa = high_pa - low_pa, step_pa = 0.4 * kStartTolerance * high_pa;
+    const double crossing_pa = low_pa + width_pa * low_missing / (low_missing - high_missing);
+    narrow(std::clamp(crossing_pa - step_pa, low_pa + step_pa, high_pa - step_pa));
+    if (high_pa - crossing_pa > step_pa && low_pa < crossing_pa + step_pa)
+      narrow(crossing_pa + step_pa);
+    if (high_pa - low_pa > 0.5 * width_pa) narrow(0.5 * (low_pa + high_pa));
   }
   return low_pa;
 }

@@ -54,6 +54,10 @@ class KnownStrokes {
 
   const Problem& problem_;
   const ProofPlan& plan_;
+  struct LineSlots {
+    int tubing, fitting, valve;
+  };
+  std::vector<LineSlots> slots_;  // per group
   std::map<LineRange, BestLine> lines_;
   std::map<int, double> highest_source_pa_;  // per group
   std::optional<PumpChoices> pumps_;

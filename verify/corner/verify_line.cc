@@ -13,6 +13,8 @@
 namespace plenum::verify {
 namespace {
 
+// Of strokes out of a reservoir; a few of them make a coarser one.
+constexpr int kPanelsToTarget = 96, kPanelsBeyond = 16;
 constexpr double kSourceTolerance = 1e-3;  // of the least source pressure; its lower end counts
 
 // Indices of the parts that a slot may have in the box.
@@ -91,6 +93,20 @@ BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   return best;
 }
 
+// Closer to each other towards the end, where flow falls.
+std::vector<StrokeKnot> KnotsOf(const Problem& problem, const BestLine& line, int g, double from_pa,
+                                double to_pa, int panels) {
+  const double share = static_cast<double>(MostAtOnce(problem, g)) / problem.groups[g].count;
+  std::vector<StrokeKnot> knots;
+  for (int i = 0; i <= panels; ++i) {
+    const double left = 1.0 - static_cast<double>(i) / panels;
+    const double pressure_pa = to_pa - (to_pa - from_pa) * left * left;
+    knots.push_back({pressure_pa, share * Drawn(problem, g, line.chamber, pressure_pa),
+                     share * Drawn(problem, g, line.widest, pressure_pa)});
+  }
+  return knots;
+}
+
 }  // namespace
 
 int SlotOf(const ProofPlan& plan, Family family, int group) {
@@ -151,7 +167,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
                 group.rise_time_max_s * slack);
   };
   if (!fast_enough(best.source_high_pa)) return best;
-  double low_pa = operating_pa, high_pa = best.source_high_pa;
+  double low_pa = std::max(operating_pa, switches_pa), high_pa = best.source_high_pa;
   while (high_pa - low_pa > kSourceTolerance * high_pa) {
     const double middle_pa = 0.5 * (low_pa + high_pa);
     (fast_enough(middle_pa) ? high_pa : low_pa) = middle_pa;
@@ -159,6 +175,10 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   best.source_low_pa = low_pa;
   if (best.all_hold) best.inflate_s = seconds(best.source_high_pa, operating_pa);
   best.fill_flow = model::FlowTable(best.fill_series, model::MirrorPa(best.chamber));
+  const double target_pa = PressureAt(problem, g, problem.rise_fraction);
+  best.to_target =
+      KnotsOf(problem, best, g, problem.ambient.pressure_pa, target_pa, kPanelsToTarget);
+  best.to_operating = KnotsOf(problem, best, g, target_pa, operating_pa, kPanelsBeyond);
   best.works = true;
   return best;
 }

@@ -13,6 +13,12 @@ struct NodeMeans {
   double rise_pa = 0.0, inflate_pa = 0.0;
 };
 
+// On the way from rest to the operating pressure: what the actuators that fill at once hold there
+// above rest, Pa·m³, at least and at most.
+struct StrokeKnot {
+  double pressure_pa = 0.0, least_drawn = 0.0, most_drawn = 0.0;
+};
+
 struct BestLine {
   // False: no choices fit together; or the best of each, alone on a source without limits, miss a
   // pressure or a time. Nothing below is valid then.
@@ -28,6 +34,7 @@ struct BestLine {
   double coil_s = 0.0;                   // it is on in a cycle, at least, whatever the strokes
   double inflate_s = 0.0;                // at the highest pressure; 0 unless all valves hold
   bool some_hold = false, all_hold = true;
+  std::vector<StrokeKnot> to_target, to_operating;  // knots; the last of the one begins the other
   NodeMeans least_means;  // with which it is fast enough, of groups that inflate at once
 };
 

@@ -74,11 +74,13 @@ KnownStrokes::Query Pumps::QueryOf(const Case& c, int g, Volumes v) const {
 
 // Of one group what a valve that cannot hold draws above the operating pressure is pumped at no
 // lower a pressure than if it had closed.
-std::vector<double> Pumps::DrawnBy(const BestLine& line, int g) const {
+const std::vector<double>& Pumps::DrawnBy(const BestLine& line, int g) {
+  const auto [entry, fresh] = drawn_by_.try_emplace(&line);
+  std::vector<double>& drawn = entry->second;
+  if (!fresh) return drawn;
   const bool one_group = problem_.groups.size() == 1;  // and one unit
   const model::Chamber& chamber = one_group ? line.chamber : line.widest;
   const double full_pa = one_group || line.all_hold ? OperatingPa(problem_, g) : kUnlimited;
-  std::vector<double> drawn;
   for (std::size_t cell = 0; cell <= kPumpCells; ++cell)
     drawn.push_back(Drawn(problem_, g, chamber, std::min(choices_.PressureOf(cell), full_pa)));
   return drawn;
@@ -110,7 +112,7 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
   if (std::isinf(first_fill_j)) return kUnlimited;
   // Since the start, at most up to the lower end of a cell.
   const auto pumped_m3 = [&](std::size_t i, std::size_t cell) {
-    const double held = v.low_m3 * (choices_.PressureOf(cell) - starts_pa[i]) + c.drawn[i][cell];
+    const double held = v.low_m3 * (choices_.PressureOf(cell) - starts_pa[i]) + (*c.drawn[i])[cell];
     return std::max(0.0, held) / content_per_m3_;
   };
   std::size_t cell = kPumpCells;  // the first where something is pumped
@@ -200,11 +202,14 @@ double Pumps::LeastTogether(const Case& c, double enough, double low_pa, double 
   return bound;
 }
 
-// Each of two groups leaves after half of the period what the other needs. False: at no pressure.
+// Each of two groups leaves after half of the period what the other needs; until that is `settled`.
+// False: at no pressure.
 bool Pumps::RaiseStarts(const Case& c, double high_pa, Volumes v,
+                        const std::function<bool()>& settled,
                         std::vector<double>& starts_pa) const {
   constexpr int kRaisesMax = 40;  // fewer leave bounds that hold
-  for (int quiet = 0, raises = 0, g = 0; quiet < 2 && raises < kRaisesMax; g = 1 - g, ++raises) {
+  for (int quiet = 0, raises = 0, g = 0; quiet < 2 && raises < kRaisesMax && !settled();
+       g = 1 - g, ++raises) {
     const auto needed_pa =
         strokes_.LeastStartLeaving(QueryOf(c, g, v), starts_pa[1 - g], starts_pa[g], high_pa);
     if (!needed_pa) return false;
@@ -234,7 +239,8 @@ double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double h
     if (!needed_pa) return kUnlimited;
     starts_pa[g] = *needed_pa;
   }
-  if (alternate && !RaiseStarts(c, high_pa, v, starts_pa)) return kUnlimited;
+  const auto settled = [&] { return least() > enough; };
+  if (alternate && !RaiseStarts(c, high_pa, v, settled, starts_pa)) return kUnlimited;
   return least();
 }
 
@@ -267,11 +273,12 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
     c.coil_j += lines[g]->coil_w * lines[g]->coil_s;
     c.inflating_j += strokes * lines[g]->coil_w * lines[g]->inflate_s;
   }
+  const std::vector<double> of_all(kPumpCells + 1, content_per_m3_ * c.air_m3);
   if ((lines.size() == 1 && bursts_ > 0) || Alternate(problem_))
     for (int g = 0; g < static_cast<int>(lines.size()); ++g)
-      c.drawn.push_back(DrawnBy(*lines[g], g));
+      c.drawn.push_back(&DrawnBy(*lines[g], g));
   else
-    c.drawn.emplace_back(kPumpCells + 1, content_per_m3_ * c.air_m3);
+    c.drawn.push_back(&of_all);
   double least = kUnlimited;
   for (int i = ranges[reservoir_].first; i < ranges[reservoir_].second; ++i) {
     if (std::isfinite(least) && least <= enough) return floor;  // no closer look is asked for

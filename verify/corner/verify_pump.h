@@ -14,6 +14,7 @@
 #define PLENUM_VERIFY_CORNER_VERIFY_PUMP_H_
 
 #include <array>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -55,7 +56,7 @@ class Pumps {
     const std::vector<const BestLine*>& lines;
     // For each stroke that counts by itself the content, Pa·m³, that is drawn by the time that the
     // reservoir is at the lower end of each cell; of all strokes together that of a cycle.
-    std::vector<std::vector<double>> drawn;
+    std::vector<const std::vector<double>*> drawn;
     double air_m3;               // of a burst, or of a cycle where there are none
     double coil_j, inflating_j;  // per cycle
     double chosen, enough;
@@ -65,13 +66,14 @@ class Pumps {
   using Range = PumpChoices::Range;
 
   const Packs& PacksIn(Range compressors, Range batteries);
-  std::vector<double> DrawnBy(const BestLine& line, int group) const;
+  const std::vector<double>& DrawnBy(const BestLine& line, int group);
   double MadeObjective(double volume_m3, double stop_pa) const;
   double FirstFill(const Case& c, double stop_pa, Volumes v) const;
   KnownStrokes::Query QueryOf(const Case& c, int group, Volumes v) const;
   double LeastTogether(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
   double LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
-  bool RaiseStarts(const Case& c, double high_pa, Volumes v, std::vector<double>& starts_pa) const;
+  bool RaiseStarts(const Case& c, double high_pa, Volumes v, const std::function<bool()>& settled,
+                   std::vector<double>& starts_pa) const;
   double LeastAt(const Case& c, double reservoir, Volumes v);
   double LeastMade(const Case& c, Volumes v);
   double Rest(const Case& c, const std::vector<double>& starts_pa, double stop_pa, Volumes v) const;
@@ -85,6 +87,7 @@ class Pumps {
   double content_per_m3_;                 // κ
   int bursts_;                            // in a cycle; 0: other strokes
   std::map<std::array<int, 4>, Packs> packs_;
+  std::map<const BestLine*, std::vector<double>> drawn_by_;
 };
 
 }  // namespace plenum::verify

@@ -3,6 +3,8 @@
 namespace plenum::verify {
 namespace {
 
+constexpr std::size_t kFineCells = kPumpCells * kFinePerCell;
+
 double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
   double least_w =
       std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
@@ -44,6 +46,11 @@ PumpCells PumpChoices::CellsOf(const ProofItem& item) const {
         delivery > 0.0 ? LeastPower(curve, PressureOf(i), PressureOf(i + 1)) / delivery
                        : kUnlimited);
   }
+  const double width_pa = (highest_pa_ - problem_.ambient.pressure_pa) / kFineCells;
+  for (std::size_t i = 0; i < kFineCells; ++i)
+    cells.fine_m3_per_s.push_back(
+        item.quantity * model::FreeAirDelivery(curve, problem_.ambient.pressure_pa +
+                                                          width_pa * static_cast<double>(i)));
   double operating_pa = problem_.ambient.pressure_pa;
   for (const ActuatorGroup& group : problem_.groups)
     operating_pa = std::max(operating_pa, group.chamber.operating_pressure_pa);
@@ -65,6 +72,8 @@ const PumpCells& PumpChoices::CellsIn(Range range) {
       best.delivery_m3_per_s[i] = std::max(best.delivery_m3_per_s[i], cells.delivery_m3_per_s[i]);
       best.energy_j_per_m3[i] = std::min(best.energy_j_per_m3[i], cells.energy_j_per_m3[i]);
     }
+    for (std::size_t i = 0; i < kFineCells; ++i)
+      best.fine_m3_per_s[i] = std::max(best.fine_m3_per_s[i], cells.fine_m3_per_s[i]);
     best.highest_pa = std::max(best.highest_pa, cells.highest_pa);
     best.duty_max = std::max(best.duty_max, cells.duty_max);
     best.current_a = std::min(best.current_a, cells.current_a);
@@ -87,7 +96,10 @@ std::size_t PumpChoices::CellOf(double pressure_pa) const {
 }
 
 double PumpChoices::DeliveryAt(const PumpCells& pumps, double pressure_pa) const {
-  return pumps.delivery_m3_per_s[CellOf(pressure_pa)];
+  const double ambient_pa = problem_.ambient.pressure_pa;
+  const double cell = (pressure_pa - ambient_pa) / (highest_pa_ - ambient_pa) * kFineCells;
+  return pumps
+      .fine_m3_per_s[std::min(static_cast<std::size_t>(std::max(cell, 0.0)), kFineCells - 1)];
 }
 
 }  // namespace plenum::verify

@@ -14,10 +14,13 @@ namespace plenum::verify {
 double ContentPerVolume(const Problem& problem);
 
 // The best of several pumps over even cells of pressure.
-inline constexpr std::size_t kPumpCells = 128;
+inline constexpr std::size_t kPumpCells = 512;
+// What is delivered, by finer ones: where it falls to nothing a stroke waits for little else.
+inline constexpr std::size_t kFinePerCell = 4;
 inline constexpr double kStartTolerance = 1e-3;  // relative; the safe end counts
 struct PumpCells {
   std::vector<double> delivery_m3_per_s, energy_j_per_m3;
+  std::vector<double> fine_m3_per_s;  // of finer cells
   // To fill a volume from ambient to a cell's lower end, per m³ of it; one more than there are
   // cells.
   std::vector<double> filling_j_per_m3;

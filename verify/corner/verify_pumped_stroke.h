@@ -30,6 +30,10 @@ PumpedStroke FastestStroke(const Problem& problem, const PumpChoices& choices,
                            const PumpCells& pumps, const BestLine& line, int group, Volumes volumes,
                            double start_pa);
 
+// Whether its target comes by `rise_max_s` and its operating pressure within the window.
+bool MayFill(const Problem& problem, const PumpChoices& choices, const PumpCells& pumps,
+             const BestLine& line, int group, Volumes volumes, double start_pa, double rise_max_s);
+
 }  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_CORNER_VERIFY_PUMPED_STROKE_H_

@@ -21,6 +21,7 @@ constexpr double kGap = 2e-7;  // of the objective
 constexpr int kLooksMax = 2000, kVolumesMax = 2000;
 constexpr double kFirstStep = 1e-4, kStepGrowth = 8.0;  // of the source pressure
 constexpr double kRoughly = 2e-3;                       // the same
+constexpr double kOfIntegration = 1e-5;                 // of strokes, beside those of the simulator
 constexpr int kFirstVolumes = 12;
 constexpr double kNarrow = 1.01;  // ratio of volumes
 
@@ -68,6 +69,8 @@ class PressureSizing {
     sizing.status = Sized::kInfeasible;
     sizing.lower_bound = kUnlimited;
     if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
+    const auto alone = cycles_.EachAlone(SettingsAt(stood_.high_pa, volumes_.high_m3), Rising());
+    if (alone && StrokeExcess(*alone) > slack_ + kOfIntegration) return sizing;
     const auto fastest = CycleAt(stood_.high_pa);
     if (!fastest) return {};
     if (StrokeExcess(*fastest) > slack_) return sizing;
@@ -78,6 +81,14 @@ class PressureSizing {
       const double least = LeastAbove(*floor);
       if (std::isinf(least)) return sizing;
       if (least > enough) return {.status = Sized::kUnknown, .lower_bound = least};
+      const auto fast = At(floor->fast_pa);
+      if (!fast) return {};
+      Offer(*fast, sizing);
+      if (least >= sizing.objective * (1.0 - kGap)) {  // no setting changes it
+        sizing.lower_bound = std::min(least, sizing.objective);
+        sizing.status = Sized::kFeasible;
+        return sizing;
+      }
     }
     floor = Divided(*floor, resolution_ > 0.0 ? resolution_ : kPressureTolerance);
     if (!floor) return {};
@@ -144,9 +155,9 @@ class PressureSizing {
 
   // With strokes at most as slow as with each of the volumes.
   const std::optional<Cycle>& CycleAt(double source_pa) {
-    return cycles_.At(SettingsAt(source_pa, volumes_.high_m3),
-                      volumes_.low_m3 + assembly_.ReservoirSpread());
+    return cycles_.At(SettingsAt(source_pa, volumes_.high_m3), Rising());
   }
+  double Rising() const { return volumes_.low_m3 + assembly_.ReservoirSpread(); }
 
   std::optional<Look> At(double source_pa) {
     ++looks_;

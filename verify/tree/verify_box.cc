@@ -7,22 +7,24 @@
 namespace plenum::verify {
 namespace {
 
-std::string IdOf(const Problem& problem, Family family, const ProofItem& item) {
-  return item.part == -2 ? "custom" : BasicsOf(problem.parts, family, item.part).id;
+const std::string& IdOf(const Problem& problem, Family family, const ProofItem& item) {
+  static const std::string custom = "custom";
+  return item.part == -2 ? custom : BasicsOf(problem.parts, family, item.part).id;
 }
 
 int SizeOf(const std::pair<int, int>& range) { return range.second - range.first; }
 
 // Of the slots that may be divided the one whose choices differ most in their share of the
-// objective, those chosen by need last; −1: there is none.
+// objective, those chosen by need last, and of these the batteries; −1: there is none.
 int Widest(const ProofPlan& plan, Corners& corners, const Ranges& ranges, const auto& may_be) {
   int widest = -1;
-  std::pair<bool, double> most;
+  std::tuple<bool, bool, double> most;
   for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
     if (!may_be(s)) continue;
     const LeastAmounts& amounts = corners.Least(ranges, s);
-    const std::pair<bool, double> spread{!SpecOf(plan.slots[s].family).by_need,
-                                         amounts.objective_most - amounts.least.objective};
+    const Family family = plan.slots[s].family;
+    const std::tuple<bool, bool, double> spread{!SpecOf(family).by_need, family != Family::kBattery,
+                                                amounts.objective_most - amounts.least.objective};
     if (widest < 0 || spread > most) {
       widest = s;
       most = spread;
@@ -39,15 +41,15 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   for (const ProofSlot& place : listed.slots) {
     const int slot = SlotOf(plan, place.family, place.group);
     if (slot < 0) continue;
-    std::optional<Ids::value_type> first;
+    std::optional<std::pair<std::string_view, int>> first;
     for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
       const ProofItem& item = plan.slots[slot].choices[i];
       if (item.part == -1) continue;
-      Ids::value_type id{IdOf(problem, place.family, item),
-                         item.quantity * TimesBought(problem, place.family)};
-      if (!first || id < *first) first = std::move(id);
+      const std::pair<std::string_view, int> id{IdOf(problem, place.family, item),
+                                                item.quantity * TimesBought(problem, place.family)};
+      if (!first || id < *first) first = id;
     }
-    if (first) ids.push_back(std::move(*first));
+    if (first) ids.emplace_back(first->first, first->second);
   }
   return ids;
 }
@@ -73,17 +75,18 @@ BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& 
       corners_(problem, plan, strokes_),
       sizer_(problem, stop) {}
 
-TieKey BoxCheck::EarliestKey(const Ranges& ranges) {
-  TieKey key{{}, EarliestIds(problem_, plan_, ranges)};
+bool BoxCheck::ComesAfter(const Ranges& ranges, const TieKey& last) {
+  TieShare share;
   for (int s = 0; s < static_cast<int>(ranges.size()); ++s)
-    key.share += ShareOfTies(problem_, corners_.Least(ranges, s).least);
-  return key;
+    share += ShareOfTies(problem_, corners_.Least(ranges, s).least);
+  return share > last.share ||
+         (share == last.share && EarliestIds(problem_, plan_, ranges) > last.ids);
 }
 
 // Whether a combination with this objective, or more, bears out the claim.
 bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) {
   if (!(objective >= claim.least)) return false;
-  return objective > claim.tie_end || EarliestKey(single) > claim.last;
+  return objective > claim.tie_end || ComesAfter(single, claim.last);
 }
 
 int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
@@ -108,26 +111,25 @@ bool BoxCheck::IsBeyond(const Claim& claim, const Ranges& ranges) {
   const double past_ties = claim.enough();
   const double bound = corners_.LeastObjective(ranges, past_ties);
   if (bound > past_ties || (bound >= claim.least && std::isinf(claim.tie_end))) return true;
-  return std::isfinite(claim.tie_end) && EarliestKey(ranges) > claim.last &&
+  return std::isfinite(claim.tie_end) && ComesAfter(ranges, claim.last) &&
          corners_.LeastObjective(ranges, claim.least) > claim.least;
 }
 
-// Whether what no battery changes, the energy that strokes take, is too much already. The parts
-// beside the batteries are sized once, without limits that a battery sets.
+// Whether what no battery changes is too much already. The parts beside the batteries are sized
+// once, without limits that a battery sets; the least battery of the box comes on top.
 bool BoxCheck::IsCoreBeyond(const Claim& claim, const Ranges& ranges, int battery_slot) {
-  if (!(problem_.objective.energy_wh > 0.0)) return false;
-  const double enough = claim.enough();
+  const double battery = corners_.Least(ranges, battery_slot).least.objective;
   Ranges core = ranges;
   core[battery_slot] = {0, 1};
-  if (CountOf(core) > 1) return false;
+  if (!IsPumped(plan_.configuration) || CountOf(core) > 1) return false;
   if (core != core_) {
     Assembly assembly = AssemblyAt(problem_, plan_, core);
     assembly.battery = nullptr;
     looks_ += kLooksPerSize;
     core_ = core;
-    core_least_ = sizer_.Size(assembly, -kToSpare, enough).lower_bound;
+    core_least_ = sizer_.Size(assembly, -kToSpare, claim.enough() - battery).lower_bound;
   }
-  return core_least_ > enough;
+  return core_least_ + battery > claim.enough();
 }
 
 // Of a list of kinds what decides the kind is divided first; −1 where it is known.

@@ -41,8 +41,9 @@ class BoxCheck {
   BigCount Recheck(const Ranges& ranges, Findings& findings);
 
  private:
-  // With the least mass and cost of each slot: no combination in the box that ties comes before it.
-  TieKey EarliestKey(const Ranges& ranges);
+  // No combination in the box that ties, with the least mass and cost of each slot and the first
+  // ids, comes before `last` or is it.
+  bool ComesAfter(const Ranges& ranges, const TieKey& last);
   bool Holds(const Claim& claim, double objective, const Ranges& single);
   bool IsBeyond(const Claim& claim, const Ranges& ranges);
   bool IsCoreBeyond(const Claim& claim, const Ranges& ranges, int battery_slot);

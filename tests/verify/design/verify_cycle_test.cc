@@ -48,5 +48,47 @@ TEST(VerifyCycleTest, SimulatorAndQuadraturesAgreeOnSlowEndsOfStrokes) {
   EXPECT_GE(slow, 5);
 }
 
+// Others only empty the reservoir: in the simulated cycle of two groups no stroke is faster than by
+// itself, and where the reservoir is large they hardly differ.
+TEST(VerifyCycleTest, NoStrokeIsFasterBesideOthersThanAlone) {
+  int compared = 0, close = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = EasyProblem(seed, {optimizer::Configuration::kCompressor});
+    Random random(seed);
+    problem.frequency_hz = LogUniform(random, 0.02, 0.5);
+    problem.groups.push_back(problem.groups[0]);
+    problem.groups[1].name = "other";
+    problem.groups[1].count = Pick(random, 1, 4);
+    const std::size_t valves = problem.parts.valves.size();
+    verify::Assembly assembly;
+    assembly.configuration = optimizer::Configuration::kCompressor;
+    for (const std::uint64_t choice : {seed, seed / 3})
+      assembly.lines.push_back({&problem.parts.tubing[0], &problem.parts.fittings[0],
+                                &problem.parts.valves[choice % valves]});
+    assembly.compressor = &problem.parts.compressors[seed % problem.parts.compressors.size()];
+    assembly.compressors = 1;
+    optimizer::Settings settings;
+    settings.source_pressure_pa =
+        problem.groups[0].chamber.operating_pressure_pa * Uniform(random, 1.02, 1.5);
+    settings.reservoir_volume_m3 = LogUniform(random, 1e-4, 2e-2);
+    if (settings.source_pressure_pa > model::HighestPressure(assembly.compressor->curve)) continue;
+    const std::optional<Cycle> alone =
+        verify::QuickCycles(problem, assembly).EachAlone(settings, *settings.reservoir_volume_m3);
+    const std::optional<Cycle> together = SimulateCycle(problem, settings, assembly);
+    ASSERT_TRUE(alone);
+    if (!together) continue;
+    for (int g = 0; g < 2; ++g) {
+      if (!std::isfinite(together->rise_s[g])) continue;
+      ++compared;
+      EXPECT_LE(alone->rise_s[g], together->rise_s[g] * (1.0 + 1e-5));
+      EXPECT_LE(alone->inflate_s[g], together->inflate_s[g] * (1.0 + 1e-5));
+      close += alone->rise_s[g] > 0.95 * together->rise_s[g];
+    }
+  }
+  EXPECT_GT(compared, 15);
+  EXPECT_GT(close, compared / 3);
+}
+
 }  // namespace
 }  // namespace plenum::test

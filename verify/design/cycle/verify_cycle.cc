@@ -302,6 +302,15 @@ double QuickCycles::FillFromTank(double& tank_pa, int unit, Cycle& cycle) const 
   return inflate_s;
 }
 
+std::optional<Cycle> QuickCycles::EachAlone(const Settings& settings, double rising_m3) const {
+  if (units_.size() < 2 || !assembly_.compressor || assembly_.direct()) return std::nullopt;
+  Cycle cycle = EmptyCycle(problem_);
+  cycle.fall_s = fall_s_;
+  for (int u = 0; u < static_cast<int>(units_.size()); ++u)
+    FillFromReservoir(settings, rising_m3, u, cycle);
+  return cycle;
+}
+
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
   if (Stopped(stop_)) return std::nullopt;
   // A valve that cannot hold lets its actuators draw while others do.

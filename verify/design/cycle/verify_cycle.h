@@ -34,6 +34,10 @@ class QuickCycles {
   // to a cycle that repeats, or when stopped, which is asked at each call.
   std::optional<Cycle> At(const Settings& settings, double rising_m3) const;
 
+  // Strokes of each unit by itself out of a reservoir that is full, which others only empty: none
+  // is faster in the cycle of all. None where that tells nothing beyond At.
+  std::optional<Cycle> EachAlone(const Settings& settings, double rising_m3) const;
+
  private:
   // How long until the source is as it was before the stroke.
   double FillFromRegulator(const Settings& settings, int unit, Cycle& cycle) const;

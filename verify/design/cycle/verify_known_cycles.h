@@ -53,6 +53,10 @@ class KnownCycles {
     return entry->second;
   }
 
+  std::optional<Cycle> EachAlone(const Settings& settings, double rising_m3) const {
+    return quick_.EachAlone(settings, rising_m3);
+  }
+
   // Of a group behind its own regulator.
   struct OfGroup;
   OfGroup& Group(int group) { return *groups_[group]; }
