@@ -174,11 +174,11 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   }
   best.source_low_pa = low_pa;
   if (best.all_hold) best.inflate_s = seconds(best.source_high_pa, operating_pa);
-  best.fill_flow = model::FlowTable(best.fill_series, model::MirrorPa(best.chamber));
+  best.filling.flow = model::FlowTable(best.fill_series, model::MirrorPa(best.chamber));
   const double target_pa = PressureAt(problem, g, problem.rise_fraction);
-  best.to_target =
+  best.filling.to_target =
       KnotsOf(problem, best, g, problem.ambient.pressure_pa, target_pa, kPanelsToTarget);
-  best.to_operating = KnotsOf(problem, best, g, target_pa, operating_pa, kPanelsBeyond);
+  best.filling.to_operating = KnotsOf(problem, best, g, target_pa, operating_pa, kPanelsBeyond);
   best.works = true;
   return best;
 }

@@ -19,22 +19,28 @@ struct StrokeKnot {
   double pressure_pa = 0.0, least_drawn = 0.0, most_drawn = 0.0;
 };
 
+// How actuators fill: the flow of a line as a table, and knots on the way to the target of the rise
+// time and on to the operating pressure.
+struct Filling {
+  model::FlowTable flow;
+  std::vector<StrokeKnot> to_target, to_operating;
+};
+
 struct BestLine {
   // False: no choices fit together; or the best of each, alone on a source without limits, miss a
   // pressure or a time. Nothing below is valid then.
   bool mates = false, works = false;
   std::vector<model::FlowElement> fill;  // in the order crossed, largest C and b of each element
   model::Series fill_series;             // of these, with gas and temperature factor
-  model::FlowTable fill_flow;            // the same as a table
-  model::Chamber chamber;                // with the narrowest bore
-  model::Chamber widest;                 // with the widest
-  double source_low_pa = 0.0;            // least source pressure that is fast enough
-  double source_high_pa = 0.0;           // most that the parts stand
-  double coil_w = 0.0;                   // whole group
-  double coil_s = 0.0;                   // it is on in a cycle, at least, whatever the strokes
-  double inflate_s = 0.0;                // at the highest pressure; 0 unless all valves hold
+  Filling filling;
+  model::Chamber chamber;       // with the narrowest bore
+  model::Chamber widest;        // with the widest
+  double source_low_pa = 0.0;   // least that is fast enough and switches a valve
+  double source_high_pa = 0.0;  // most that the parts stand
+  double coil_w = 0.0;          // whole group
+  double coil_s = 0.0;          // it is on in a cycle, at least, whatever the strokes
+  double inflate_s = 0.0;       // at the highest pressure; 0 unless all valves hold
   bool some_hold = false, all_hold = true;
-  std::vector<StrokeKnot> to_target, to_operating;  // knots; the last of the one begins the other
   NodeMeans least_means;  // with which it is fast enough, of groups that inflate at once
 };
 

@@ -48,7 +48,7 @@ double LeastMean(const Problem& problem, const BestLine& line, double to_pa, dou
       const double from_pa = ambient_pa + (to_pa - ambient_pa) * i / kPanels;
       const double next_pa = ambient_pa + (to_pa - ambient_pa) * (i + 1) / kPanels;
       sum += (Air(problem, line, next_pa) - Air(problem, line, from_pa)) *
-             LeastPerAir(line.fill_flow, mu_pa / from_pa);
+             LeastPerAir(line.filling.flow, mu_pa / from_pa);
     }
     most_pa = std::max(most_pa, mu_pa + sum / time_s);
   }

@@ -35,9 +35,9 @@ class Stroke {
   // So many panels at a time. False: the target comes later than `rise_max_s`, or the operating
   // pressure than the window.
   bool Fill(double rise_max_s, int stride) {
-    if (!FillAlong(line_.to_target, std::min(rise_max_s, window_s_), stride)) return false;
+    if (!FillAlong(line_.filling.to_target, std::min(rise_max_s, window_s_), stride)) return false;
     rise_s_ = seconds_;
-    return FillAlong(line_.to_operating, window_s_, stride);
+    return FillAlong(line_.filling.to_operating, window_s_, stride);
   }
   bool HasTimeToSpare(double rise_max_s) const {
     return rise_s_ <= kClearly * rise_max_s && seconds_ <= kClearly * window_s_;
@@ -50,7 +50,7 @@ class Stroke {
     if (!filled) return stroke;
     stroke.inflate_s = seconds_;
     RefillClosed();
-    stroke.end_pa = MostSource(pumped_, line_.to_operating.back().least_drawn);
+    stroke.end_pa = MostSource(pumped_, line_.filling.to_operating.back().least_drawn);
     return stroke;
   }
 
@@ -107,8 +107,8 @@ class Stroke {
     const auto panel_s = [&](double pumped) {
       const double source_pa = MostSource(pumped, from.least_drawn);
       if (!(source_pa > from.pressure_pa)) return kUnlimited;
-      const double flow =
-          count_ * content_per_m3_ * kFlowSlack * line_.fill_flow.Flow(source_pa, from.pressure_pa);
+      const double flow = count_ * content_per_m3_ * kFlowSlack *
+                          line_.filling.flow.Flow(source_pa, from.pressure_pa);
       return flow > 0.0 ? more / flow : kUnlimited;
     };
     const auto pumped_by_end = [&](double pumped) {
@@ -139,7 +139,7 @@ class Stroke {
 
   // A valve that cannot hold draws on, from a source at the operating pressure or above.
   void RefillClosed() {
-    const StrokeKnot& full = line_.to_operating.back();
+    const StrokeKnot& full = line_.filling.to_operating.back();
     const double left_s = window_s_ - seconds_;
     const double open = line_.all_hold ? 0.0 : pumped_ + left_s * MostDelivered(full.pressure_pa);
     for (int i = 0; i < kStepsClosed; ++i)

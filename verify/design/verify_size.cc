@@ -84,11 +84,8 @@ class PressureSizing {
       const auto fast = At(floor->fast_pa);
       if (!fast) return {};
       Offer(*fast, sizing);
-      if (least >= sizing.objective * (1.0 - kGap)) {  // no setting changes it
-        sizing.lower_bound = std::min(least, sizing.objective);
-        sizing.status = Sized::kFeasible;
-        return sizing;
-      }
+      if (least >= sizing.objective * (1.0 - kGap))  // no setting changes it
+        return {Sized::kFeasible, sizing.objective, std::min(least, sizing.objective)};
     }
     floor = Divided(*floor, resolution_ > 0.0 ? resolution_ : kPressureTolerance);
     if (!floor) return {};
