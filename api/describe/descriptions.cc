@@ -89,8 +89,7 @@ Json EvacuatedRequirements() {
                      "tube_length_m": 1 } ],
     "duty": { "frequency_hz": 0.1, "actuations": 10 },
     "supply": { "vacuum": { "configurations": ["pump", "mains"], "vacuum_kpa_gauge_min": -80,
-                            "mains": { "pressure_kpa_gauge": -85,
-                                       "flow_l_per_min_anr_max": 60 } } },
+                            "mains": { "pressure_kpa_gauge": -85 } } },
     "require": { "vacuum_pump": ["x"] } })");
 }
 

@@ -124,11 +124,11 @@ model::ReservoirSource ReadTank(Reader& source, const Surroundings& around) {
 model::RegulatedSource ReadRegulated(Reader& source, const Surroundings& around) {
   model::RegulatedSource regulated;
   regulated.pressure_pa = around.Pa(source.Number("source_pressure_kpa_gauge", around.Pressures()));
-  if (around.side == Side::kPressure)
-    if (auto regulator = source.OptionalObject("regulator")) {
-      regulated.regulator = ReadPair(*regulator);
-      regulator->Finish();
-    }
+  if (around.side == Side::kVacuum) return regulated;
+  if (auto regulator = source.OptionalObject("regulator")) {
+    regulated.regulator = ReadPair(*regulator);
+    regulator->Finish();
+  }
   if (const auto flow = source.OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6)))
     regulated.flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
   return regulated;

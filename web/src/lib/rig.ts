@@ -3,7 +3,7 @@ import { loadPart, numberOf } from './catalogue';
 import { type Change, changed, groupPressures } from './evaluation';
 import { feedOf, feedsOf } from './pumps';
 import type { Design, Effect, Group, Part, Requirements, Response } from './types';
-import { areEvacuated, isDirect } from './vacuum';
+import { isDirect } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -78,7 +78,7 @@ function sourceOf(
   const flows = [
     regulator ? numberOf(regulator, 'flow_max_l_per_min_anr') : null,
     design.configuration === 'mains'
-      ? (wallOf(requirements)?.flow_l_per_min_anr_max ?? null)
+      ? (requirements.supply?.mains?.flow_l_per_min_anr_max ?? null)
       : null,
   ].filter((flow): flow is number => flow !== null);
   return {
@@ -94,9 +94,6 @@ function sourceOf(
     ...(flows.length > 0 && { flow_l_per_min_anr_max: Math.min(...flows) }),
   };
 }
-
-const wallOf = (requirements: Requirements) =>
-  areEvacuated(requirements) ? requirements.supply?.vacuum?.mains : requirements.supply?.mains;
 
 const nameOf = (requirements: Requirements, g: number) =>
   requirements.actuators[g]!.name ?? `group ${g + 1}`;

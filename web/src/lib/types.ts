@@ -62,7 +62,7 @@ export interface Requirements {
     vacuum?: {
       configurations?: string[];
       vacuum_kpa_gauge_min?: number | null;
-      mains?: Mains;
+      mains?: Pick<Mains, 'pressure_kpa_gauge'>;
     };
     source_pressure_kpa_gauge_max?: number | null;
     tank_fill_kpa_gauge_max?: number | null;

@@ -188,13 +188,6 @@ export function Supply() {
               path={['supply', 'vacuum', 'mains', 'pressure_kpa_gauge']}
               range={[-100, -1]}
             />
-            <RequirementField
-              label="Its flow, at most"
-              unit="L/min ANR"
-              optional
-              path={['supply', 'vacuum', 'mains', 'flow_l_per_min_anr_max']}
-              hint="at 100 kPa and 20 °C"
-            />
           </>
         )}
         {vacuum ? (

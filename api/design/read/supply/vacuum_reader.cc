@@ -36,7 +36,7 @@ Asked ReadKinds(Reader& vacuum) {
   return asked;
 }
 
-// The wall's vacuum and its flow.
+// The wall's vacuum.
 void ReadWall(Reader& vacuum, bool asked, optimizer::Problem& problem) {
   auto mains = vacuum.OptionalObject("mains");
   if (!mains && asked) vacuum.Fail("mains", "is required by the configuration mains");
@@ -44,8 +44,11 @@ void ReadWall(Reader& vacuum, bool asked, optimizer::Problem& problem) {
   problem.mains = {};
   const double kpa = mains->Number("pressure_kpa_gauge", {-problem.ambient.pressure_pa / 1e3, -1});
   problem.mains.pressure_pa = optimizer::PaFromKpaGauge(problem, kpa);
-  const auto flow = mains->OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6));
-  if (flow) problem.mains.flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
+  if (mains->Has("flow_l_per_min_anr_max")) {
+    mains->Raw("flow_l_per_min_anr_max");
+    mains->Fail("flow_l_per_min_anr_max",
+                "must be left out: the wall is taken to keep its vacuum whatever is drawn");
+  }
   mains->Finish();
 }
 
@@ -82,7 +85,8 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
 }
 
 void CheckVacuum(const optimizer::Problem& problem, Errors& errors) {
-  const bool wall = problem.configurations == std::set<Configuration>{Configuration::kMains};
+  const bool wall = problem.mains.pressure_pa > 0.0 &&
+                    problem.configurations == std::set<Configuration>{Configuration::kMains};
   const auto told = [&](double pa) { return Decimal(Rounded(optimizer::KpaGauge(problem, pa))); };
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const double operating_pa = problem.groups[g].chamber.operating_pressure_pa;
