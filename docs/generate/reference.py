@@ -65,7 +65,7 @@ def example_answers(program):
     revised = program.example("gripper") | {"model": "wall", "ranking": {"count": 3, "time_limit_s": 5}}
     judged["ranking"] = {"proof": True}
     bottled = program.example("tank_arm")
-    bottled["supply"]["configurations"] = ["cylinder"]
+    bottled["supply"] = {"configurations": ["cylinder"]}
     documents = [priced, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
                  program.example("tank_arm"), bottled,
                  program.example("orthosis")]

@@ -190,7 +190,7 @@ TEST(Parts, NameEveryFieldThatIsWrong) {
       {"/mass_kg", -1, "≥ 1e-6 and ≤ 500, not -1"},
       {"/mass_kg", "heavy", "number"},
       {"/channels", 0, "≥ 1"},
-      {"/function", "4/2", "3/2, 2/2 pair or proportional"},
+      {"/function", "4/2", "3/2, 2/2 pair, proportional or 2/2"},
       {"/manufacturer", "", "1 to 200"},
       {"/weight_kg", 1, "nearest known: "},
       {"/notes", 5, "text"},

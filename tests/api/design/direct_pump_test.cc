@@ -201,12 +201,13 @@ TEST(OwnPumps, OfEachActuatorAreDesignedAndVerified) {
 // One of four equal fingers with pumps of its own is the whole of one alone, four times.
 TEST(OwnPumps, AKitOfFourIsFourKitsOfOne) {
   Json request = Kit();
-  request["require"]["battery"] = {RowOf(Answered(request)["designs"][0], "battery")["id"]};
+  request["require"]["battery"] =
+      Json::array({RowOf(Answered(request)["designs"][0], "battery")["id"]});
   const Json four = Answered(request)["designs"][0];
   request["actuators"][0]["count"] = 1;
-  request["require"]["compressor"] = {RowOf(four, "compressor")["id"]};
-  request["require"]["valve"] = {RowOf(four, "valve")["id"]};
-  request["require"]["tubing"] = {RowOf(four, "tubing")["id"]};
+  request["require"]["compressor"] = Json::array({RowOf(four, "compressor")["id"]});
+  request["require"]["valve"] = Json::array({RowOf(four, "valve")["id"]});
+  request["require"]["tubing"] = Json::array({RowOf(four, "tubing")["id"]});
   const Json one = Answered(request)["designs"][0];
   const auto near = [&](const char* of, const char* field, double times) {
     const double value = one[of][field];
