@@ -27,6 +27,43 @@ test('a pressure below ambient asks for a vacuum', async () => {
   await close();
 });
 
+test('the wall may give the vacuum, and its design can be tried', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByLabel('Pressure, at most', { exact: false }).first().fill('');
+  await page.getByLabel('Expansion', { exact: false }).fill('1');
+  await page.getByLabel('Operating pressure', { exact: false }).first().fill('-40');
+  await page.getByText('Vacuum from the wall', { exact: true }).click();
+  await page.getByText('Vacuum pump', { exact: true }).click();
+  await page.getByLabel('Vacuum of the wall', { exact: false }).fill('-85');
+  await page.getByText('These requirements can be searched.').waitFor();
+  if (process.env.SHOT) await page.screenshot({ path: process.env.SHOT, fullPage: true });
+  const asked = page.waitForRequest(
+    (request) => request.method() === 'POST' && request.url().endsWith('/v1/designs'),
+  );
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  const { supply } = (await asked).postDataJSON();
+  assert.deepEqual(supply.vacuum, {
+    configurations: ['mains'],
+    mains: { pressure_kpa_gauge: -85 },
+  });
+  await close();
+
+  const bag = example('jamming_gripper');
+  bag.supply.vacuum = supply.vacuum;
+  const id = await rank(service, { ...bag, ranking: { count: 1, time_limit_s: 30 } });
+  const { result } = await service.get(`/v1/designs/${id}`);
+  assert.equal(result.designs[0].configuration, 'mains');
+  const design = await openPage(browser, service.base, `#/designs/${id}/1`);
+  const simulated = design.page.waitForResponse((r) => r.url().endsWith('/v1/simulations'));
+  await design.page.reload();
+  const response = await (await simulated).json();
+  const listed = result.designs[0].performance.groups[0].rise_time_s;
+  const { rise_time_s } = response.performance.groups[0];
+  assert.ok(Math.abs(rise_time_s - listed) < 1e-3 * listed);
+  await design.close();
+});
+
 test('an evacuated design can be tried', async () => {
   const id = await rank(service, {
     ...example('jamming_gripper'),

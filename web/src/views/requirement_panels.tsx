@@ -38,12 +38,15 @@ export function Supply() {
   const vacuum = areEvacuated(numbers.value);
   const evacuating = vacuumSources(requirements.value);
   const evacuateBy = (source: string, on: boolean) => {
-    edit(
-      ['supply', 'vacuum', 'configurations'],
-      ['pump', 'mains'].filter((one) => (one === source ? on : evacuating.includes(one))),
+    const { mains, ...rest } = supply.vacuum ?? {};
+    const sources = ['pump', 'mains'].filter((one) =>
+      one === source ? on : evacuating.includes(one),
     );
-    if (source === 'mains')
-      edit(['supply', 'vacuum', 'mains'], on ? { pressure_kpa_gauge: -80 } : undefined);
+    edit(['supply', 'vacuum'], {
+      ...rest,
+      configurations: sources,
+      ...(sources.includes('mains') && { mains: mains ?? { pressure_kpa_gauge: -80 } }),
+    });
   };
   return (
     <Panel title="Supply">

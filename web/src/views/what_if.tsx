@@ -9,7 +9,7 @@ import { route, setQuery } from '../lib/route';
 import type { Design, Effect, Requirements, Response } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { Met, ResponsePlot, Slider } from './what_if_views';
-import { isDirect, isVacuum } from '../lib/vacuum';
+import { isDirect, areEvacuated } from '../lib/vacuum';
 
 type Cycles = '1' | '3' | '10';
 
@@ -149,12 +149,12 @@ export function WhatIf({
               kind="pressure"
               value={change.value.source_kpa}
               low={
-                isVacuum(design.configuration)
+                areEvacuated(requirements)
                   ? Math.min(highest ?? start.source_kpa, start.source_kpa)
                   : Math.min(lowest ?? start.source_kpa, start.source_kpa)
               }
               high={
-                isVacuum(design.configuration)
+                areEvacuated(requirements)
                   ? Math.max(lowest ?? start.source_kpa, start.source_kpa)
                   : Math.min(highest ?? Infinity, Math.max(3 * start.source_kpa, 300))
               }
