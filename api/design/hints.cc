@@ -6,8 +6,7 @@
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
-#include "optimizer/problem/family_specs.h"
-#include "optimizer/problem/gait.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/search/tree_search.h"
 
 namespace plenum::api {
@@ -26,11 +25,7 @@ bool NamesConfigurations(const Json& request) {
 
 bool MayBeAsked(const Problem& problem, Configuration configuration) {
   if (configuration == Configuration::kMains) return problem.mains.pressure_pa > 0.0;
-  if (optimizer::IsDirect(configuration)) {
-    const optimizer::Meeting meeting = optimizer::MeetingOf(problem);
-    return meeting != optimizer::Meeting::kTogether && meeting != optimizer::Meeting::kMixed;
-  }
-  return true;
+  return !optimizer::IsDirect(configuration) || !optimizer::StrokesMeet(problem);
 }
 
 // The same with one other configuration, and one design.

@@ -11,7 +11,6 @@
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
-#include "optimizer/problem/pump_feed.h"
 #include "optimizer/sizing/group_pressures.h"
 #include "optimizer/sizing/sizing.h"
 
@@ -43,7 +42,7 @@ Constraint Bounds::NeedOfDirect(Box& box) {
   AddLines(box);
   const CompressorCorner& pump = CornerAt(plan_.compressors, box, plan_.compressor_slot);
   box.window.high_pa = std::min(box.window.high_pa, pump.pressure_max_pa);
-  if (box.window.empty() || FeedsMeet(problem_)) return Constraint::kPressure;
+  if (box.window.empty() || direct_.feeds_meet()) return Constraint::kPressure;
   std::vector<const Line*> lines;
   lines.reserve(box.lines.size());
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {

@@ -12,7 +12,6 @@
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
-#include "optimizer/problem/pump_feed.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
@@ -170,7 +169,7 @@ Constraint Bounds::RestOfRegulated(Box& box) {
   }
   int unknown = -1;
   const double pump_current_a =
-      direct ? FeedsAtOnce(problem_) * PumpOf(box).rates.CurrentAt(box.window.low_pa) : 0.0;
+      direct ? direct_.feeds_at_once() * PumpOf(box).rates.CurrentAt(box.window.low_pa) : 0.0;
   const BatteryLoad load{box.energy_j / kRounding, pump_current_a, box.coil_power_w,
                          LeastBesidesBattery(box)};
   const double battery = LeastBattery(box, load, unknown);

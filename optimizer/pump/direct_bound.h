@@ -37,7 +37,14 @@ struct DirectStrokeBound {
 class DirectBounds {
  public:
   explicit DirectBounds(const Problem& problem)
-      : problem_(problem), squads_(FedSquadsOf(problem)) {}
+      : problem_(problem),
+        squads_(FedSquadsOf(problem)),
+        feeds_meet_(FeedsMeet(problem)),
+        feeds_at_once_(FeedsAtOnce(problem)) {}
+
+  // As pump_feed.h has them, looked at once.
+  bool feeds_meet() const { return feeds_meet_; }
+  int feeds_at_once() const { return feeds_at_once_; }
 
   // Of the pumps of `facts`, which stay where they are, with `lines`, one per group, with curves
   // and strokes that are counted; none where a group is too slow. No part stands more than
@@ -54,6 +61,8 @@ class DirectBounds {
 
   const Problem& problem_;
   std::vector<FedSquad> squads_;
+  bool feeds_meet_;
+  int feeds_at_once_;
   std::map<Key, DirectStrokeBound> known_;
 };
 

@@ -23,7 +23,8 @@ DirectPumps::DirectPumps(const Problem& problem, const ProofPlan& plan, const Sl
       choices_(strokes.pumps()),
       compressor_(SlotOf(plan, PumpFamily(plan.configuration), -1)),
       battery_(SlotOf(plan, Family::kBattery, -1)),
-      units_(UnitsOf(problem)) {}
+      units_(UnitsOf(problem)),
+      running_(FeedsRunning(problem)) {}
 
 const DirectPumps::Stroke& DirectPumps::StrokeOf(Range compressors, const BestLine& line,
                                                  const Unit& unit) {
@@ -109,7 +110,6 @@ bool DirectPumps::Suits(const Ranges& ranges, const std::vector<const BestLine*>
 double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double node_pa,
                                  double coil_w) const {
   const std::vector<model::Compressor>& compressors = PumpsOf(problem_);
-  const int running = FeedsRunning(problem_);
   double least = kUnlimited;
   for (int i = ranges[battery_].first; i < ranges[battery_].second; ++i) {
     const ProofItem& item = plan_.slots[battery_].choices[i];
@@ -123,7 +123,7 @@ double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double n
       const ProofItem& pump = plan_.slots[compressor_].choices[c];
       const model::CompressorCurve& curve = compressors[pump.part].curve;
       if (!model::VoltageMatches(pack.nominal_voltage_v, curve.voltage_v) ||
-          running * pump.quantity *
+          running_ * pump.quantity *
                   model::LargestCurrent(curve, problem_.ambient.pressure_pa, node_pa) >
               pumps_a)
         continue;

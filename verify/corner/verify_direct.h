@@ -43,6 +43,7 @@ class DirectPumps {
   PumpChoices& choices_;
   int compressor_, battery_;  // slots
   std::vector<Unit> units_;
+  int running_;  // feeds, at most at one time
   std::map<std::tuple<Range, const BestLine*, int, int>, Stroke> known_;
 };
 
