@@ -9,6 +9,7 @@
 
 #include "api/catalogue/part_document.h"
 #include "api/design/answer.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
 #include "tests/api/support.h"
@@ -40,6 +41,11 @@ Json Answered(const Json& request) {
   Json answer = AnswerRequest(parsed, {}, Project().parts);
   answer["catalogue_revision"] = RenderRevisionName(Project().revision);
   return Parse(answer.dump());
+}
+
+Parsed<Json> Evaluated(const Json& request, const Json& design) {
+  return RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
+                       Project().parts, {});
 }
 
 Json Verified(const Json& answer) {

@@ -9,6 +9,7 @@
 
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "api/json/reader.h"
 
 namespace plenum::api {
 
@@ -20,6 +21,9 @@ const Catalogue& Project();
 
 Json Example(const std::string& name);  // a request
 Json Answered(const Json& request);     // as it is read back from a file
+
+// A design beside the request that it is to meet, as `plenum evaluate` takes them.
+Parsed<Json> Evaluated(const Json& request, const Json& design);
 
 Json Verified(const Json& answer);
 // Stopped the time after it has been asked so often whether to stop.

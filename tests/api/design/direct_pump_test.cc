@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "api/design/answer.h"
-#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/simulate/simulation.h"
 #include "tests/api/support.h"
@@ -127,11 +126,6 @@ TEST(DirectPumpTest, NamesWhatIsWrongWithARequest) {
   request["ranking"] = {{"count", 1}};
   request["guarantee"] = true;
   EXPECT_EQ(Pointers(request), "/guarantee ");
-}
-
-Parsed<Json> Evaluated(const Json& request, const Json& design) {
-  return RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
-                       Project().parts, {});
 }
 
 TEST(DirectPumpTest, ADesignIsEvaluatedAsItWasListed) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/simulate/simulation.h"
 #include "tests/api/support.h"
@@ -126,9 +125,7 @@ TEST(DoubleActing, RequirementsAreOfTheEntry) {
 
 TEST(DoubleActing, ADesignIsEvaluatedAsItWasListed) {
   for (const Json& design : TheAnswer()["designs"]) {
-    const auto evaluated =
-        RunEvaluation({{"schema", "evaluation/1"}, {"requirements", Asked()}, {"design", design}},
-                      Project().parts, {});
+    const auto evaluated = Evaluated(Asked(), design);
     for (const Error& error : ErrorsOf(evaluated)) ADD_FAILURE() << error.pointer << error.detail;
     const Json& answer = std::get<Json>(evaluated);
     EXPECT_EQ(answer["works"], true);

@@ -128,9 +128,7 @@ TEST(PowerTest, OfBottlesTakesTheBatteryAway) {
 TEST(PowerTest, ADesignWithItIsEvaluatedWithoutABattery) {
   const Json request = Powered("exosuit", {{"kind", "wall"}});
   const Json design = Answered(request)["designs"][0];
-  const auto evaluated =
-      RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
-                    Project().parts, {});
+  const auto evaluated = Evaluated(request, design);
   for (const Error& error : ErrorsOf(evaluated)) ADD_FAILURE() << error.pointer << error.detail;
   EXPECT_EQ(std::get<Json>(evaluated)["works"], true);
   EXPECT_NEAR(std::get<Json>(evaluated)["totals"]["mass_kg"].get<double>(),

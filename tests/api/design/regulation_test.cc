@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"
@@ -24,11 +23,6 @@ Json RegulatorsOf(const Json& design) {
   for (const Json& row : design["parts"])
     if (row["family"] == "regulator") groups.push_back(row["group"]);
   return groups;
-}
-
-Parsed<Json> Evaluated(const Json& request, const Json& design) {
-  return RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
-                       Project().parts, {});
 }
 
 TEST(RegulationTest, TwoPressuresFromOneBottle) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "api/design/answer.h"
-#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"
@@ -96,11 +95,6 @@ TEST(TankTest, NamesWhatIsWrongWithARequest) {
   errors = ErrorsOf(ParseRequirements(request, Project().parts));
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_EQ(errors[0].pointer, "/require/reservoir");
-}
-
-Parsed<Json> Evaluated(const Json& request, const Json& design) {
-  return RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
-                       Project().parts, {});
 }
 
 TEST(TankTest, ADesignIsEvaluatedAsItWasListed) {

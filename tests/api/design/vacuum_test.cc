@@ -5,7 +5,6 @@
 #include <set>
 
 #include "api/catalogue/catalogue_parts.h"
-#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/simulate/simulation.h"
 #include "tests/api/support.h"
@@ -79,9 +78,7 @@ TEST(VacuumTest, ADesignIsEvaluatedAsItWasListed) {
     for (const char* left_out : {"", "vacuum_kpa_gauge", "source_pressure_kpa_gauge"}) {
       Json given = design;
       if (*left_out) given["settings"].erase(left_out);
-      const auto evaluated =
-          RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", given}},
-                        Project().parts, {});
+      const auto evaluated = Evaluated(request, given);
       for (const Error& error : ErrorsOf(evaluated)) ADD_FAILURE() << error.pointer << error.detail;
       const Json& answer = std::get<Json>(evaluated);
       EXPECT_EQ(answer["works"], true);
@@ -104,9 +101,7 @@ TEST(VacuumTest, AGivenPartThatDoesNotStandVacuumIsNamed) {
       if (row["family"] == "reservoir") row["id"] = id;
     design["settings"].erase("reservoir_volume_ml");
     std::string all;
-    for (const Error& error : ErrorsOf(RunEvaluation(
-             {{"schema", "evaluation/1"}, {"requirements", Asked()}, {"design", design}},
-             Project().parts, {})))
+    for (const Error& error : ErrorsOf(Evaluated(Asked(), design)))
       all += error.pointer + " " + error.detail;
     return all;
   };
@@ -161,9 +156,7 @@ TEST(VacuumTest, IsGuaranteed) {
             answer["on_paper"]["designs"][0]["objective"].get<double>());
   request.erase("guarantee");
   Json given = design;
-  const auto evaluated =
-      RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", given}},
-                    Project().parts, {});
+  const auto evaluated = Evaluated(request, given);
   const Json& figures = std::get<Json>(evaluated);
   EXPECT_EQ(figures["works"], true);
   for (const Json& margin : figures["margins"])

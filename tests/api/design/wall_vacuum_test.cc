@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "api/design/given/evaluation.h"
 #include "api/simulate/simulation.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"
@@ -101,9 +100,7 @@ TEST(WallVacuum, GroupsAtOnceAreAsFastAsAlone) {
 TEST(WallVacuum, ADesignFromTheWallIsEvaluatedAsItWasListed) {
   const Json request = FromWall();
   const Json design = Answered(request)["designs"][0];
-  const auto evaluated =
-      RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
-                    Project().parts, {});
+  const auto evaluated = Evaluated(request, design);
   for (const Error& error : ErrorsOf(evaluated)) ADD_FAILURE() << error.pointer << error.detail;
   EXPECT_EQ(std::get<Json>(evaluated)["works"], true);
 }
