@@ -70,7 +70,7 @@ std::string RefusalsIn(const Json& verified) {
 
 std::string Refusals(const Json& answer) {
   const Json verified = Verified(answer);
-  const std::string refusals = RefusalsIn(verified);
+  std::string refusals = RefusalsIn(verified);
   EXPECT_EQ(verified["accepted"], refusals.empty());
   return refusals;
 }
