@@ -34,7 +34,7 @@ Drawn Draw(Problem& problem, const Design& design, model::Parts parts, const Sto
   std::optional<Assembly> assembly = Assemble(problem, design, missing);
   if (!assembly) return {};
   // What was made to measure is there by now, with a volume of its own.
-  if (assembly->compressor && !assembly->reservoir && !assembly->direct()) {
+  if (assembly->pump() && !assembly->reservoir && !assembly->direct()) {
     if (problem.parts.reservoirs.empty()) return {};
     assembly->reservoir = &problem.parts.reservoirs.front();
   }

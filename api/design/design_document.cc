@@ -6,6 +6,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/stock_volume.h"
 #include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/units.h"
@@ -23,10 +24,6 @@ Json Numbers(const std::vector<double>& values, auto&& convert) {
   Json list = Json::array();
   for (const double value : values) list.push_back(Number(convert(value)));
   return list;
-}
-
-bool IsCustom(const optimizer::Choice& choice) {
-  return choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
 }
 
 Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& problem,
@@ -63,6 +60,8 @@ Json RenderSettings(const optimizer::Settings& settings, const optimizer::Proble
       {"tank_fill_kpa_gauge", settings.tank_fill_pa
                                   ? Number(optimizer::KpaGauge(problem, *settings.tank_fill_pa))
                                   : Json(nullptr)}};
+  if (settings.pump_stop_pa)
+    rendered["pump_stop_kpa_gauge"] = Number(optimizer::KpaGauge(problem, *settings.pump_stop_pa));
   if (optimizer::Evacuated(problem)) rendered["vacuum_kpa_gauge"] = source;
   if (!settings.group_pressure_pa.empty())
     rendered["group_pressure_kpa_gauge"] = Numbers(
@@ -219,7 +218,7 @@ Quality QualityOf(const optimizer::Design& design, const optimizer::Problem& pro
   const bool kept_by_pumps = problem.pump_feed == optimizer::PumpFeed::kPerActuator;
   Quality quality;
   for (const optimizer::Choice& choice : design.parts) {
-    if (IsCustom(choice)) {
+    if (IsMadeToMeasure(choice)) {
       quality.mass_estimated_kg += choice.mass_kg;
       quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
     } else if (const auto row = rows.find(choice.id); row != rows.end()) {

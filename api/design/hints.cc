@@ -62,9 +62,7 @@ void AddHints(const DesignRequest& request, const optimizer::Answer& answer,
   const double* best = answer.designs.empty() ? nullptr : &answer.designs.front().objective;
   double used_s = answer.seconds;
   Json hints = Json::array();
-  for (const Configuration configuration :
-       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
-        Configuration::kMains, Configuration::kTank, Configuration::kDirectPump}) {
+  for (const Configuration configuration : optimizer::kPressureConfigurations) {
     if (problem.configurations.contains(configuration) || !MayBeAsked(problem, configuration))
       continue;
     optimizer::SearchOptions own = options;

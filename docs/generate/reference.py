@@ -68,7 +68,7 @@ def example_answers(program):
     bottled["supply"] = {"configurations": ["cylinder"]}
     documents = [priced, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
                  program.example("tank_arm"), bottled,
-                 program.example("orthosis")]
+                 program.example("orthosis"), program.example("refilled_arm")]
     return [program.answer("design", one) for one in documents]
 
 

@@ -1,4 +1,5 @@
-// Boxes of the configurations with a regulator: cylinder, CO2, mains and tank; and what is the same
+// Boxes of the configurations with a regulator: cylinder, CO2, mains, tank, and a tank that pumps
+// go on filling; and what is the same
 // of pumps without a reservoir (bounds_compressor.cc). Where a tank may do without a regulator the
 // source pressure of a box is at most its fill and at least what the last stroke finds: strokes are
 // bounded by those on a source that stays at the highest.
@@ -7,6 +8,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/bounds/box.h"
+#include "optimizer/bounds/refill_bound.h"
 #include "optimizer/bounds/regulator_box.h"
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
@@ -36,6 +38,14 @@ double FlowMax(const Problem& problem, Configuration configuration,
              : regulator.flow_max_m3_per_s;
 }
 
+// Of the gas that a bottle gives, between the least and the most that it may.
+double ShareAt(const Problem& problem, const Plan& plan, double inlet_pa) {
+  const double low = GasLeft(problem, plan.configuration, plan.bottle_range.low_pa);
+  const double high = GasLeft(problem, plan.configuration, plan.bottle_range.high_pa);
+  const double left = GasLeft(problem, plan.configuration, inlet_pa);
+  return high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
+}
+
 }  // namespace
 
 Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
@@ -44,7 +54,7 @@ Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
     if (const Constraint missed = direct ? NeedOfDirect(box) : NeedOfRegulated(box);
         missed != Constraint::kNone)
       return missed;
-  if (direct && !PackDrivesPump(box)) return Constraint::kMating;
+  if (HasPump(plan_.configuration) && !PackDrivesPump(box)) return Constraint::kMating;
   return RestOfRegulated(box);
 }
 
@@ -130,37 +140,48 @@ double Bounds::RegulatedFloor(const Box& box) const {
 Constraint Bounds::RestOfRegulated(Box& box) {
   const bool direct = IsDirect(plan_.configuration);
   const Inlet inlet = direct ? Inlet{} : InletOf(plan_, box);
-  const double source =
-      direct ? CornerAt(plan_.compressors, box, plan_.compressor_slot).objective : inlet.objective;
-  double bound = source + EnergyShare(box.energy_beyond_j);
+  double bound = inlet.objective + EnergyShare(box.energy_beyond_j);
+  if (plan_.compressor_slot >= 0)
+    bound += CornerAt(plan_.compressors, box, plan_.compressor_slot).objective;
+  Refilling refilling;  // of pumps without a reservoir the current
+  if (direct)
+    refilling.current_a = direct_.feeds_at_once() * PumpOf(box).rates.CurrentAt(box.window.low_pa);
   if (plan_.bottle_slot >= 0) {
     const double inlet_pa = std::max(box.window.low_pa, inlet.min_pa);
     const double air_m3 = problem_.actuations * box.air_m3;
     // Without a regulator the last stroke may take a tank below the least that it asks.
     const double above_m3 = inlet.some_none ? air_m3 - box.air_m3 : air_m3;
-    const bool tank = plan_.configuration == Configuration::kTank;
+    const bool tank = HasTank(plan_.configuration);
     const double fill_max_pa = inlet.all_none ? box.window.high_pa : inlet.max_pa;
-    const auto holds = [&](const BottleCorner& c) {
-      const double fall_pa = std::min(c.fill_max_pa, fill_max_pa) - inlet_pa;
-      return !tank || model::StandardVolume(c.water_m3 * fall_pa, problem_.ambient.temperature_k) >=
-                          above_m3 / kRounding;
-    };
-    const double air_kg = tank ? air_m3 / kRounding * model::kReferenceDensityKgPerM3 : 0.0;
+    const bool refilled = tank && plan_.compressor_slot >= 0;
+    const TankAt fullest{problem_, CornerAt(plan_.bottles, box, plan_.bottle_slot), fill_max_pa,
+                         inlet_pa};
+    const double cycle_m3 = box.air_m3 / kRounding;
+    if (refilled)
+      refilling = LeastRefilling(
+          fullest, cycle_m3, CornerAt(plan_.compressors, box, plan_.compressor_slot),
+          PumpOf(box).rates,
+          Node(box, plan_.compressor_slot).single() ? &OptionOf(box, plan_.compressor_slot)
+                                                    : nullptr);
+    if (!refilling.works) return Constraint::kGas;
+    // What bottles must hold, at least: of a tank that pumps fill the air of one period.
+    const double held_m3 =
+        std::max(above_m3 / kRounding - refilling.most_m3, refilled ? cycle_m3 : 0.0);
+    double charge_m3 = refilled ? held_m3 : tank ? air_m3 / kRounding : 0.0;
+    if (refilled && Node(box, plan_.bottle_slot).single()) charge_m3 += LeftM3(fullest);
+    const double air_kg = charge_m3 * model::kReferenceDensityKgPerM3;
+    bound += EnergyShare(refilling.energy_j);
     bound += problem_.objective.mass_kg * air_kg;
-    const double low = GasLeft(problem_, plan_.configuration, plan_.bottle_range.low_pa);
-    const double high = GasLeft(problem_, plan_.configuration, plan_.bottle_range.high_pa);
-    const double left = GasLeft(problem_, plan_.configuration, inlet_pa);
-    const double share = high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
+    const double share = ShareAt(problem_, plan_, inlet_pa);
     const Amounts all = LeastOfAll(box);
-    const Amounts& counted = CornerAt(plan_.bottles, box, plan_.bottle_slot).amounts;
+    const Amounts& counted = fullest.tank.amounts;
     const Amounts others{all.mass_kg - counted.mass_kg + air_kg, all.volume_m3 - counted.volume_m3,
                          all.cost_eur - counted.cost_eur};
     const double bottle =
         LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
           return c.fill_pressure_pa <= inlet.max_pa &&
-                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >=
-                     above_m3 / kRounding &&
-                 holds(c) &&
+                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= held_m3 &&
+                 (!tank || GivenM3({problem_, c, fill_max_pa, inlet_pa}) >= held_m3) &&
                  c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz &&
                  WithinLimits(others, c.amounts);
         });
@@ -168,10 +189,8 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     bound += bottle;
   }
   int unknown = -1;
-  const double pump_current_a =
-      direct ? direct_.feeds_at_once() * PumpOf(box).rates.CurrentAt(box.window.low_pa) : 0.0;
-  const BatteryLoad load{box.energy_j / kRounding, pump_current_a, box.coil_power_w,
-                         LeastBesidesBattery(box)};
+  const BatteryLoad load{(box.energy_j + refilling.energy_j) / kRounding, refilling.current_a,
+                         box.coil_power_w, LeastBesidesBattery(box)};
   const double battery = LeastBattery(box, load, unknown);
   const double lines = std::isinf(battery) ? battery : LeastWithLines(box, load, battery);
   if (std::isinf(lines)) return Constraint::kBattery;

@@ -56,9 +56,11 @@ int Bounds::WidestSlot(const Box& box, bool kinds_first) const {
   // hold back less than valves and tubes do, and by how much they weigh the bound on lines alone
   // (FindChoices) divides them already.
   constexpr double kSourceWeight = 300.0, kFittingWeight = 0.125;
+  // What fills a tank decides no source pressure, and all that comes behind it.
+  const auto decides = [&](int s) { return DecidesSource(s) || s == plan_.compressor_slot; };
   const auto weight = [&](int s) {
     if (plan_.slots[s].family == Family::kFitting) return kFittingWeight;
-    return DecidesSource(s) && plan_.slots[s].group < 0 ? kSourceWeight : 1.0;
+    return decides(s) && plan_.slots[s].group < 0 ? kSourceWeight : 1.0;
   };
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
@@ -73,7 +75,7 @@ int Bounds::WidestSlot(const Box& box, bool kinds_first) const {
   // are found by what they must bear.
   const auto turn = [&](int s) {
     if (kinds_first && Node(box, s).series < 0) return 0;
-    return s == plan_.reservoir_slot ? 2 : DecidesSource(s) ? 1 : 3;
+    return s == plan_.reservoir_slot ? 2 : decides(s) ? 1 : 3;
   };
   int widest = -1;
   for (const int now : {0, 1, 2, 3}) {

@@ -26,8 +26,7 @@ Inlet InletOf(const Plan& plan, const Box& box) {
 }
 
 bool InletsSuit(const Problem& problem, const Plan& plan, const Box& box) {
-  if (plan.configuration == Configuration::kCylinder || plan.configuration == Configuration::kTank)
-    return true;
+  if (plan.configuration == Configuration::kCylinder || HasTank(plan.configuration)) return true;
   const double inlet_pa = plan.configuration == Configuration::kCo2
                               ? model::Co2SaturationPressure(problem.ambient.temperature_k)
                               : problem.mains.pressure_pa;

@@ -36,7 +36,9 @@ class Sketch {
     }
     if (configuration() == Configuration::kCylinder) AddCylinders();
     if (configuration() == Configuration::kCo2) AddCo2();
-    if (configuration() == Configuration::kTank) AddTanks();
+    if (HasTank(configuration())) AddTanks();
+    if (configuration() == Configuration::kTankAndPump)
+      Add(PumpsOf(problem_), most.compressors, Pieces());
     if (configuration() != Configuration::kMains) AddBatteries();
     outline_.bound *= kRounding;
     return outline_;
@@ -143,14 +145,18 @@ class Sketch {
     });
   }
 
+  // What pumps go on filling need not hold all the air.
   void AddTanks() {
+    const bool alone = configuration() == Configuration::kTank;
+    const double held_kg = alone ? air_m3_ * model::kReferenceDensityKgPerM3 : 0.0;
     Add(problem_.parts.tanks, problem_.limits.reservoirs,
         [&](const model::Reservoir& part, int quantity) {
           const int i = static_cast<int>(&part - problem_.parts.tanks.data());
-          const double share =
-              BottleShare(part.basics, quantity, LeastTankCharge(problem_, i),
-                          part.volume_m3 * GasAt(TankRatingPa(problem_, i)), part.volume_m3);
-          return share + problem_.objective.mass_kg * air_m3_ * model::kReferenceDensityKgPerM3;
+          const double full_m3 =
+              alone ? part.volume_m3 * GasAt(TankRatingPa(problem_, i)) : kUnlimited;
+          const double share = BottleShare(part.basics, quantity, LeastTankCharge(problem_, i),
+                                           full_m3, part.volume_m3);
+          return share + problem_.objective.mass_kg * held_kg;
         });
   }
 

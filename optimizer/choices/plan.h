@@ -1,8 +1,9 @@
 // What a configuration offers: the choices of every family as trees of boxes, one slot each.
 //
 //   regulated:   tube, fitting, valve of each group; regulator, bottle, battery
-//                (mains: no bottle, no battery; a tank stands in the place of a bottle; a
-//                regulator of each group where they have their own)
+//                (mains: no bottle, no battery; a tank stands in the place of a bottle, with a
+//                compressor where one goes on filling it; a regulator of each group where they
+//                have their own)
 //   compressor:  tube, fitting, valve of each group; compressor, reservoir, battery
 //   direct pump: tube, fitting, valve of each group; compressor, battery
 #ifndef PLENUM_OPTIMIZER_CHOICES_PLAN_H_

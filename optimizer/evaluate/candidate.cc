@@ -101,7 +101,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   }
   if (candidate.configuration == Configuration::kMains)
     window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
-  if (candidate.compressor.index != kNone) {
+  if (candidate.compressor.index != kNone && IsPumped(candidate.configuration)) {
     const model::CompressorCurve& curve = PumpsOf(problem)[candidate.compressor.index].curve;
     window.high_pa = std::min(window.high_pa, model::HighestPressure(curve));
   }
@@ -114,7 +114,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
 }
 
 double ReservoirVolume(const Problem& problem, const Candidate& candidate) {
-  if (candidate.configuration == Configuration::kTank) return TankVolume(problem, candidate);
+  if (HasTank(candidate.configuration)) return TankVolume(problem, candidate);
   const Option& reservoir = candidate.reservoir;
   return reservoir.index < 0
              ? 0.0
@@ -225,7 +225,7 @@ bool IsOpenTank(const Candidate& candidate) {
 
 double TankVolume(const Problem& problem, const Candidate& candidate) {
   const Option& tank = candidate.bottle;
-  if (candidate.configuration != Configuration::kTank || tank.index == kNone) return 0.0;
+  if (!HasTank(candidate.configuration) || tank.index == kNone) return 0.0;
   return tank.quantity * problem.parts.tanks[tank.index].volume_m3;
 }
 
@@ -278,6 +278,11 @@ double LeastOpenFillPa(const Problem& problem, const Candidate& candidate) {
 double LastPeriodPa(const Problem& problem, const Candidate& candidate, double fill_pa) {
   return fill_pa - TankFallPa(problem, candidate,
                               (problem.actuations - 1.0) * AirPerCycle(problem, candidate));
+}
+
+double TankInletPa(const Problem& problem, const Candidate& candidate, double source_pa) {
+  if (IsOpenTank(candidate)) return KeptPa(problem, candidate);
+  return std::max(source_pa, InletMinPa(problem, candidate));
 }
 
 double FillForPa(const Problem& problem, const Candidate& candidate, double inlet_pa,

@@ -60,6 +60,7 @@ struct OperatingPointOf {
   T reservoir_rising_m3 = T(0.0);
   double tank_fill_pa = 0.0;          // 0: the least that does (see below)
   std::vector<double> group_pa = {};  // behind each group's own regulator; or empty
+  double pump_stop_pa = 0.0;          // of pumps that fill a tank; 0: the lowest that does
 };
 using OperatingPoint = OperatingPointOf<double>;
 
@@ -173,6 +174,8 @@ double LeastOpenFillPa(const Problem& problem, const Candidate& candidate);
 // Open: the pressure when the last period of the mission begins.
 double LastPeriodPa(const Problem& problem, const Candidate& candidate, double fill_pa);
 
+// The pressure down to which a tank gives its air to a source of this pressure.
+double TankInletPa(const Problem& problem, const Candidate& candidate, double source_pa);
 // The fill that holds so much air above an inlet pressure, or as much of it as may be.
 double FillForPa(const Problem& problem, const Candidate& candidate, double inlet_pa,
                  double air_m3);

@@ -6,18 +6,13 @@
 #include "model/flow/scalar.h"
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/evaluate/refilled_tank.h"
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
-
-// The pressure down to which a tank gives its air.
-double TankInletPa(const Problem& problem, const Candidate& candidate, double source_pa) {
-  if (IsOpenTank(candidate)) return KeptPa(problem, candidate);
-  return std::max(source_pa, InletMinPa(problem, candidate));
-}
 
 // Gas on board that reaches the regulator's outlet, m³ ANR.
 double AirAvailable(const Problem& problem, const Candidate& candidate, double source_pa) {
@@ -126,6 +121,26 @@ void AddPump(const Problem& problem, const Candidate& candidate, const Operating
       static_cast<double>(pumps) * LargestCurrent(curve, ambient_pa, point.source_pa);
 }
 
+// Pumps that go on filling a tank, as full as may be where its fill is not given; they draw most at
+// their stop pressure.
+template <class T>
+void AddRefill(const Problem& problem, const Candidate& candidate, const OperatingPointOf<T>& point,
+               EvaluationOf<T>& evaluation) {
+  const model::CompressorCurve& curve = PumpsOf(problem)[candidate.compressor.index].curve;
+  const double air_m3 = model::ValueOf(evaluation.air_per_cycle_m3);
+  OperatingPoint at{model::ValueOf(point.source_pa)};
+  at.pump_stop_pa = point.pump_stop_pa;
+  at.tank_fill_pa =
+      point.tank_fill_pa > 0.0 ? point.tank_fill_pa : TankFillMaxPa(problem, candidate);
+  const model::Refill refill = RefillOf(problem, candidate, at, air_m3);
+  evaluation.air_available_m3 = (refill.lasts_s * problem.frequency_hz + 1.0) * air_m3;
+  evaluation.compressor_duty = T(refill.on_s * problem.frequency_hz / problem.actuations);
+  evaluation.energy_per_cycle_j += refill.energy_j / problem.actuations;
+  evaluation.battery_current_a +=
+      candidate.compressor.quantity *
+      model::LargestCurrent(curve, problem.ambient.pressure_pa, refill.stop_pa);
+}
+
 template <class T>
 void AddBattery(const Problem& problem, const Candidate& candidate, double coil_power_w,
                 EvaluationOf<T>& evaluation) {
@@ -138,6 +153,17 @@ void AddBattery(const Problem& problem, const Candidate& candidate, double coil_
   evaluation.battery_current_a += coil_power_w / battery.nominal_voltage_v;
 }
 
+template <class T>
+double BestFillOf(const Problem& problem, const Candidate& candidate,
+                  const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
+  if constexpr (std::is_same_v<T, double>)
+    return BestFillPa(problem, candidate, point,
+                      {evaluation.air_per_cycle_m3, evaluation.energy_total_j,
+                       evaluation.energy_available_j, evaluation.battery_current_a});
+  else
+    return TankFillMaxPa(problem, candidate);  // no such candidate is differentiated
+}
+
 }  // namespace
 
 template <class T>
@@ -147,6 +173,8 @@ OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
   const double source_pa = model::ValueOf(point.source_pa);
   if (IsOpenTank(candidate))
     point.tank_fill_pa = source_pa;
+  else if (point.tank_fill_pa == 0.0 && RefillsTank(candidate))
+    point.tank_fill_pa = BestFillOf(problem, candidate, point, evaluation);
   else if (point.tank_fill_pa == 0.0)
     point.tank_fill_pa = FillForPa(problem, candidate, TankInletPa(problem, candidate, source_pa),
                                    model::ValueOf(evaluation.air_total_m3));
@@ -161,6 +189,14 @@ T ObjectiveValue(const Problem& problem, const Candidate& candidate,
              problem.objective,
              TotalAmounts(problem, candidate, Filled(problem, candidate, point, evaluation))) +
          problem.objective.energy_wh * evaluation.energy_total_j / kJoulePerWattHour;
+}
+
+Evaluation EvaluateFilled(const Problem& problem, const Candidate& candidate,
+                          OperatingPoint& point) {
+  Evaluation evaluation = Evaluate(problem, candidate, point);
+  if (!evaluation.works || !RefillsTank(candidate) || point.tank_fill_pa > 0.0) return evaluation;
+  point = Filled(problem, candidate, point, evaluation);
+  return Evaluate(problem, candidate, point);
 }
 
 Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
@@ -205,13 +241,17 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
     evaluation.energy_per_cycle_j += regulator->electrical_power_w / problem.frequency_hz;
     coil_power_w += regulator->electrical_power_w;
   }
-  if (candidate.compressor.index != kNone) AddPump(problem, candidate, point, strokes, evaluation);
-  if (candidate.configuration == Configuration::kTank && candidate.bottle.index != kNone)
+  const bool pumps = candidate.compressor.index != kNone;
+  if (pumps && IsPumped(candidate.configuration))
+    AddPump(problem, candidate, point, strokes, evaluation);
+  if (!HasTank(candidate.configuration) || candidate.bottle.index == kNone)
+    evaluation.air_available_m3 = AirAvailable(problem, candidate, model::ValueOf(point.source_pa));
+  else if (pumps)
+    AddRefill(problem, candidate, point, evaluation);
+  else
     evaluation.air_available_m3 =
         TankAir(problem, candidate, Filled(problem, candidate, point, evaluation).tank_fill_pa,
                 TankInletPa(problem, candidate, model::ValueOf(point.source_pa)));
-  else
-    evaluation.air_available_m3 = AirAvailable(problem, candidate, model::ValueOf(point.source_pa));
   AddBattery(problem, candidate, coil_power_w, evaluation);
   evaluation.energy_total_j =
       evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;

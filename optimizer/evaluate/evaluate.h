@@ -39,6 +39,10 @@ struct EvaluateOptions {
 
 Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
                     const EvaluateOptions& options = {});
+// The same with the fill of a tank that pumps go on filling, where it is not given: the point's is
+// set.
+Evaluation EvaluateFilled(const Problem& problem, const Candidate& candidate,
+                          OperatingPoint& point);
 // The same of strokes that are known (evaluate_strokes.h). T may be dual for a compressor's
 // candidates: air on board is not differentiated.
 template <class T>
@@ -48,8 +52,9 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
                              const Candidate& candidate, const OperatingPointOf<T>& point,
                              const EvaluateOptions& options = {});
 
-// The point with the tank's fill: its own, or the least that holds the air of the evaluation; of
-// a candidate without a tank as it is.
+// The point with the tank's fill: its own, or the least that holds the air of the evaluation, or
+// the best of one that pumps go on filling (refilled_tank.h), whose evaluation without a fill is
+// that at the highest; of a candidate without a tank as it is.
 template <class T>
 OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
                            OperatingPointOf<T> point, const EvaluationOf<T>& evaluation);

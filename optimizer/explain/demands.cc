@@ -70,13 +70,15 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
   const Configuration pump = Configuration::kCompressor, bottle = Configuration::kCylinder,
                       co2 = Configuration::kCo2, tank = Configuration::kTank,
                       direct = Configuration::kDirectPump, vacuum = Configuration::kVacuumPump,
-                      direct_vacuum = Configuration::kDirectVacuumPump;
-  add("/limits/compressors_max", &Limits::compressors, {pump, direct, vacuum, direct_vacuum});
+                      direct_vacuum = Configuration::kDirectVacuumPump,
+                      refilled = Configuration::kTankAndPump;
+  add("/limits/compressors_max", &Limits::compressors,
+      {pump, direct, vacuum, direct_vacuum, refilled});
   add("/limits/batteries_max", &Limits::batteries,
-      {pump, bottle, co2, tank, direct, vacuum, direct_vacuum});
+      {pump, bottle, co2, tank, direct, vacuum, direct_vacuum, refilled});
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
-  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum});
+  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum, refilled});
 }
 
 void AddProducts(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {

@@ -89,7 +89,8 @@ std::vector<Requirement> Requirements(const Problem& problem) {
          std::nullopt});
   }
   if (std::isfinite(problem.tank_fill_max_pa) &&
-      problem.configurations.contains(Configuration::kTank)) {
+      (problem.configurations.contains(Configuration::kTank) ||
+       problem.configurations.contains(Configuration::kTankAndPump))) {
     const double ambient_pa = problem.ambient.pressure_pa;
     list.push_back(
         {"/supply/tank_fill_kpa_gauge_max", (problem.tank_fill_max_pa - ambient_pa) / 1e3, 1e5,

@@ -51,12 +51,18 @@ Problem OfKind(const Problem& problem, const DesignKinds& kinds, const Kind& kin
     std::size_t i = 0;
     std::erase_if(parts, [&](const auto&) { return !wanted(series[i++]); });
   };
-  const auto of_source = [&](int series) { return series == kind.source; };
-  keep(own.parts.compressors, Family::kCompressor, of_source);
-  keep(own.parts.vacuum_pumps, Family::kVacuumPump, of_source);
-  keep(own.parts.cylinders, Family::kCylinder, of_source);
-  keep(own.parts.co2, Family::kCo2, of_source);
-  keep(own.parts.tanks, Family::kTank, of_source);
+  // A tank comes before the pump that goes on filling it.
+  const auto first = [&](int series) {
+    return !kind.sources.empty() && series == kind.sources.front();
+  };
+  const auto last = [&](int series) {
+    return !kind.sources.empty() && series == kind.sources.back();
+  };
+  keep(own.parts.compressors, Family::kCompressor, last);
+  keep(own.parts.vacuum_pumps, Family::kVacuumPump, last);
+  keep(own.parts.cylinders, Family::kCylinder, first);
+  keep(own.parts.co2, Family::kCo2, first);
+  keep(own.parts.tanks, Family::kTank, first);
   keep(own.parts.regulators, Family::kRegulator, [&](int series) {
     return std::binary_search(kind.regulators.begin(), kind.regulators.end(), series);
   });

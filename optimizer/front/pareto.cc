@@ -44,7 +44,8 @@ bool MadeReservoirAllowed(const Problem& problem, const std::vector<Amount>& amo
 // Where energy counts a tank's fill trades its air against the time that coils are on.
 double Resolution(const Problem& problem, const std::vector<Amount>& amounts) {
   const bool made = MadeReservoirAllowed(problem, amounts);
-  const bool tank = problem.configurations.contains(Configuration::kTank);
+  const bool tank = problem.configurations.contains(Configuration::kTank) ||
+                    problem.configurations.contains(Configuration::kTankAndPump);
   const bool energy = std::find(amounts.begin(), amounts.end(), Amount::kEnergy) != amounts.end();
   if (energy && (made || tank)) return kCurveResolution;
   return made ? kMadeResolution : kTie;

@@ -71,7 +71,7 @@ std::vector<FamilySpec> OwnFamilies() {
                            {.place = 0, .in_line = true, .kind_role = KindRole::kValve}),
       Spec<&Parts::compressors>(Family::kCompressor, "compressor", kCompressorFields,
                                 {.place = 6,
-                                 .sources = {kCompressor, kDirectPump},
+                                 .sources = {kCompressor, kDirectPump, kTankAndPump},
                                  .most = &Limits::compressors,
                                  .kind_role = KindRole::kSource}),
       Spec<&Parts::cylinders>(Family::kCylinder, "cylinder", kCylinderFields,
@@ -89,12 +89,12 @@ std::vector<FamilySpec> OwnFamilies() {
       Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
                               {.place = 7,
                                .sources = {kCylinder, kCo2, kCompressor, kTank, kDirectPump,
-                                           kVacuumPump, kDirectVacuumPump},
+                                           kVacuumPump, kDirectVacuumPump, kTankAndPump},
                                .most = &Limits::batteries,
                                .by_need = true}),
       Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,
                                {.place = 3,
-                                .sources = {kCylinder, kCo2, kMains, kTank},
+                                .sources = {kCylinder, kCo2, kMains, kTank, kTankAndPump},
                                 .kind_role = KindRole::kRegulator}),
       Spec<&Parts::reservoirs>(Family::kReservoir, "reservoir", kReservoirFields,
                                {.place = 8,
@@ -104,7 +104,7 @@ std::vector<FamilySpec> OwnFamilies() {
                                 .made_to_measure = true}),
       Spec<&Parts::tanks>(Family::kTank, "reservoir", kTankFields,
                           {.place = 5,
-                           .sources = {kTank},
+                           .sources = {kTank, kTankAndPump},
                            .most = &Limits::reservoirs,
                            .by_need = true,
                            .kind_role = KindRole::kSource}),
@@ -141,7 +141,7 @@ int FindPart(const model::Parts& parts, Family family, const std::string& id) {
 }
 
 Family FamilyIn(Configuration configuration, Family named) {
-  const bool tank = configuration == Configuration::kTank && named == Family::kReservoir;
+  const bool tank = HasTank(configuration) && named == Family::kReservoir;
   return tank ? Family::kTank : named;
 }
 

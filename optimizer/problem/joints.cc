@@ -119,6 +119,7 @@ std::optional<Joint> JointOfLines(const Problem& problem, int g) {
 }
 
 std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family, int part) {
+  if (family == Family::kCompressor) return std::nullopt;  // it fills the tank
   const bool bottle = family == Family::kCylinder || family == Family::kCo2;
   return Lightest(problem, static_cast<int>(problem.groups.size()),
                   PressureOf(problem, family, part), bottle ? 0.0 : JointConductance(problem));

@@ -8,7 +8,7 @@ namespace plenum::optimizer {
 
 void Kind::Add(KindRole role, int number) {
   if (number == kNoPart) return;
-  if (role == KindRole::kSource) source = number;
+  if (role == KindRole::kSource) sources.push_back(number);
   if (role != KindRole::kValve && role != KindRole::kRegulator) return;
   std::vector<int>& of_role = role == KindRole::kValve ? valves : regulators;
   const auto place = std::lower_bound(of_role.begin(), of_role.end(), number);

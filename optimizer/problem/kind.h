@@ -1,7 +1,8 @@
 // The kind of a design: what people take for the same idea, whatever the numbers of pieces, tubes,
-// fittings, batteries and reservoirs. That is its configuration, the series of its source (pump,
-// bottle or tank; none for the mains), and the sets of the series of its regulators (none for some
-// tanks) and of its valves, whichever group has which. A part without a series is its own.
+// fittings, batteries and reservoirs. That is its configuration, the series of its sources (pump,
+// bottle, tank, or tank and pump; none for the mains), and the sets of the series of its regulators
+// (none for some tanks) and of its valves, whichever group has which. A part without a series is
+// its own.
 //
 // A list of kinds holds the best design of each of the best kinds, of kinds with the same
 // configuration and source at most Problem::per_source.
@@ -25,15 +26,16 @@ inline constexpr int kNoPart = std::numeric_limits<int>::max();
 
 struct Kind {
   Configuration configuration{};
-  int source = -1;                                // series, by number; −1: there is none
+  std::vector<int> sources = {};                  // series, by number; in the order of a design
   std::vector<int> regulators = {}, valves = {};  // the same, ascending, each once
 
   // A part of this series, in this role; kNoPart changes nothing.
   void Add(KindRole role, int number);
-  std::pair<Configuration, int> Source() const { return {configuration, source}; }
+  using Sources = std::pair<Configuration, std::vector<int>>;
+  Sources Source() const { return {configuration, sources}; }
   bool operator<(const Kind& other) const {
-    return std::tie(configuration, source, regulators, valves) <
-           std::tie(other.configuration, other.source, other.regulators, other.valves);
+    return std::tie(configuration, sources, regulators, valves) <
+           std::tie(other.configuration, other.sources, other.regulators, other.valves);
   }
   bool operator==(const Kind& other) const = default;
 };

@@ -24,6 +24,8 @@ const char* Name(Configuration configuration) {
       return "vacuum_pump";
     case Configuration::kDirectVacuumPump:
       return "direct_vacuum_pump";
+    case Configuration::kTankAndPump:
+      return "tank_and_pump";
   }
   return "";
 }

@@ -19,6 +19,7 @@
 #include "model/physics/chamber.h"
 #include "model/simulate/periodic.h"
 #include "optimizer/problem/big_count.h"
+#include "optimizer/problem/configuration.h"
 #include "optimizer/problem/proof.h"
 
 namespace plenum::optimizer {
@@ -27,37 +28,6 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 enum class NlpSolver { kIpopt, kNlopt };
 const char* Name(NlpSolver solver);  // "ipopt", "nlopt"
-
-// kDirectPump: pumps without a reservoir that fill one group after another (candidate.h).
-// kVacuumPump, kDirectVacuumPump: the same two of evacuated actuators (Evacuated() below).
-enum class Configuration {
-  kCylinder,
-  kCo2,
-  kCompressor,
-  kMains,
-  kTank,
-  kDirectPump,
-  kVacuumPump,
-  kDirectVacuumPump
-};
-inline constexpr int kConfigurations = 8;
-// As requests name them: "cylinder", "co2", …, "direct_vacuum_pump".
-const char* Name(Configuration configuration);
-// Whether pumps keep a reservoir at its pressure, feed the lines themselves, or do either.
-inline bool KeepsReservoir(Configuration configuration) {
-  return configuration == Configuration::kCompressor || configuration == Configuration::kVacuumPump;
-}
-inline bool IsDirect(Configuration configuration) {
-  return configuration == Configuration::kDirectPump ||
-         configuration == Configuration::kDirectVacuumPump;
-}
-inline bool IsPumped(Configuration configuration) {
-  return KeepsReservoir(configuration) || IsDirect(configuration);
-}
-inline bool IsVacuum(Configuration configuration) {
-  return configuration == Configuration::kVacuumPump ||
-         configuration == Configuration::kDirectVacuumPump;
-}
 
 enum class Family {
   kTubing,
@@ -260,7 +230,7 @@ struct Settings {
   std::optional<double> compressor_duty;
   std::optional<double> reservoir_volume_m3;
   std::vector<double> valve_duty;  // per group
-  std::optional<double> tank_fill_pa = {};
+  std::optional<double> tank_fill_pa = {}, pump_stop_pa = {};
   std::vector<double> group_pressure_pa = {};  // behind each group's own regulator
 };
 

@@ -17,13 +17,16 @@ std::string IdOf(const model::Parts& parts, Family family, int index) {
   return BasicsOf(parts, family, index).id;
 }
 
-// The configuration and the series of the source of all combinations in the box.
-std::optional<std::pair<Configuration, int>> SourceAt(const Plan& plan, const Box& box) {
-  const int slot = plan.compressor_slot >= 0 ? plan.compressor_slot : plan.bottle_slot;
-  if (slot < 0) return std::pair(plan.configuration, -1);
-  const int source = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
-  if (source < 0) return std::nullopt;
-  return std::pair(plan.configuration, source);
+// The configuration and the series of the sources of all combinations in the box.
+std::optional<Kind::Sources> SourceAt(const Plan& plan, const Box& box) {
+  Kind::Sources sources{plan.configuration, {}};
+  for (const int slot : {plan.bottle_slot, plan.compressor_slot}) {
+    if (slot < 0) continue;
+    const int series = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
+    if (series < 0) return std::nullopt;
+    sources.second.push_back(series);
+  }
+  return sources;
 }
 
 }  // namespace
@@ -231,7 +234,7 @@ void Ranking::SortKinds() {
   std::vector<Found> best = TakeBestOfKinds();
   source_end_.clear();
   run_begin_ = run_end_ = kUnlimited;
-  std::map<std::pair<Configuration, int>, int> listed;
+  std::map<Kind::Sources, int> listed;
   for (std::size_t first = 0; first < best.size();) {
     const double objective = best[first].leaf.objective;
     const std::size_t end = OrderRun(best, first);

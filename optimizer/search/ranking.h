@@ -92,7 +92,7 @@ class Ranking {
   std::vector<Found> list_, spare_;  // spare: beyond the ties of a full list
   double run_begin_ = kUnlimited, run_end_ = kUnlimited;
   std::map<Kind, Run> kinds_;
-  std::map<std::pair<Configuration, int>, double> source_end_;  // of its last kind that is listed
+  std::map<Kind::Sources, double> source_end_;  // of its last kind that is listed
 };
 
 }  // namespace plenum::optimizer

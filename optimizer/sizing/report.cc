@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/closing.h"
+#include "optimizer/evaluate/refilled_tank.h"
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
@@ -157,7 +158,7 @@ bool InTime(const Problem& problem, const Candidate& candidate, const OperatingP
   };
   if (excess(strokes.rise_s, strokes.inflate_s) <= kConfirmTolerance) return true;
   OperatingPoint raised = point;
-  raised.tank_fill_pa = 0.0;
+  raised.tank_fill_pa = raised.pump_stop_pa = 0.0;
   raised.source_pa *= 1.0 + kConfirmTolerance;
   for (double& group_pa : raised.group_pa) group_pa *= 1.0 + kConfirmTolerance;
   const Evaluation above = Evaluate(problem, candidate, raised);
@@ -181,7 +182,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
   const Strokes strokes = SimulateStrokes(problem, candidate, point);
   if (!strokes.works) return false;
   if (!InTime(problem, candidate, point, strokes, evaluation)) return false;
-  if (candidate.compressor.index == kNone) {
+  if (!IsPumped(candidate.configuration)) {
     const Evaluation simulated =
         StrokesMeet(problem) ? EvaluateWith(strokes, problem, candidate, point) : evaluation;
     if (SmallestMargin(problem, candidate, point, simulated) >= 0.0) evaluation = simulated;
@@ -201,7 +202,7 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
   for (const double step : kSteps) {
     if (step > 0.0 && IsDirect(candidate.configuration)) break;  // no setting
     OperatingPoint point = leaf.point;
-    point.tank_fill_pa = 0.0;
+    point.tank_fill_pa = point.pump_stop_pa = 0.0;
     point.source_pa *= 1.0 + step;
     if (step > 0.0 && point.source_pa > high_pa) break;
     for (int g = 0; g < static_cast<int>(point.group_pa.size()); ++g)
@@ -265,6 +266,7 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
     if (!near) return std::nullopt;
     point = *near;
   }
+  if (RefillsTank(candidate)) evaluation = EvaluateFilled(problem, candidate, point);
   Design design = Describe(problem, candidate, point, evaluation);
   design.response = TraceCycle(problem, candidate, point);
   return design;
@@ -290,6 +292,9 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
     design.settings.reservoir_volume_m3 = point.reservoir_m3;
     design.settings.tank_fill_pa = filled.tank_fill_pa;
   }
+  if (RefillsTank(candidate))
+    design.settings.pump_stop_pa =
+        RefillOf(problem, candidate, filled, evaluation.air_per_cycle_m3).stop_pa;
   for (std::size_t g = 0; g < evaluation.groups.size(); ++g)
     design.settings.valve_duty.push_back(problem.groups[g].gait.strokes_per_period *
                                          evaluation.groups[g].inflate_time_s *

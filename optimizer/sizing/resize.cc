@@ -152,6 +152,7 @@ OperatingPoint PointOf(const Problem& problem, const Candidate& candidate, const
   const double reservoir_m3 = design.settings.reservoir_volume_m3.value_or(0.0);
   OperatingPoint point{design.settings.source_pressure_pa, reservoir_m3, reservoir_m3,
                        design.settings.tank_fill_pa.value_or(0.0)};
+  point.pump_stop_pa = design.settings.pump_stop_pa.value_or(0.0);
   if (HasOwnRegulators(candidate)) point.group_pa = design.settings.group_pressure_pa;
   return point;
 }
@@ -275,11 +276,11 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
   Rebuilt rebuilt;
   if (!Rebuild(free, Relaxed(free), design, rebuilt)) return found;
   found.source = SourceWindow(free, rebuilt.candidate);
-  const OperatingPoint point = PointOf(free, rebuilt.candidate, design);
+  OperatingPoint point = PointOf(free, rebuilt.candidate, design);
   if (!StandsSettings(free, rebuilt.candidate, found.source, point)) return found;
   const Workbench bench{.stop = stop};
   rebuilt.candidate.bench = &bench;
-  const Evaluation evaluation = Evaluate(free, rebuilt.candidate, point);
+  const Evaluation evaluation = EvaluateFilled(free, rebuilt.candidate, point);
   found.unknown = evaluation.failed;
   if (!evaluation.works) return found;
   found.design = Describe(problem, rebuilt.candidate, point, evaluation);

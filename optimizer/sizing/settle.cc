@@ -20,7 +20,7 @@ constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 // so that the tank needs no more air.
 double HighestFree(const Problem& problem, const Candidate& candidate) {
   const double high_pa = SourceWindow(problem, candidate).high_pa;
-  if (candidate.configuration != Configuration::kTank) return high_pa;
+  if (!HasTank(candidate.configuration)) return high_pa;
   if (IsOpenTank(candidate) || !AllHold(candidate)) return 0.0;
   return std::min(high_pa, InletMinPa(problem, candidate));
 }
@@ -100,7 +100,7 @@ OperatingPoint SettleGroups(const Problem& problem, const Candidate& candidate, 
   if (pressures.status != LeafStatus::kFeasible) return leaf.point;
   const double free_pa = std::max(pressures.least_pa(), InletMinPa(problem, candidate));
   double most_pa = pressures.most_pa();
-  if (candidate.configuration == Configuration::kTank)
+  if (HasTank(candidate.configuration))
     most_pa = AllHold(candidate) ? free_pa : pressures.least_pa();
   std::vector<Window> windows = pressures.windows;
   for (int g = 0; g < static_cast<int>(windows.size()); ++g) {

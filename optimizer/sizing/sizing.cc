@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 
+#include "optimizer/evaluate/refilled_tank.h"
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/pump_bounds.h"
@@ -103,10 +104,13 @@ class PressureSearch {
     Evaluation evaluation = Evaluate(problem_, candidate_, point);
     failed_ = failed_ || evaluation.failed;
     if (!(SmallestMargin(problem_, candidate_, point, evaluation) >= 0.0)) return evaluation;
-    const double objective = ObjectiveValue(problem_, candidate_, point, evaluation);
+    const OperatingPoint filled = Filled(problem_, candidate_, point, evaluation);
+    const double objective = ObjectiveValue(
+        problem_, candidate_, filled,
+        RefillsTank(candidate_) ? Evaluate(problem_, candidate_, filled) : evaluation);
     if (objective < leaf_.objective) {
       leaf_.objective = objective;
-      leaf_.point = Filled(problem_, candidate_, point, evaluation);
+      leaf_.point = filled;
     }
     return evaluation;
   }
@@ -214,6 +218,7 @@ bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
   const model::CompressorCurve& curve = PumpsOf(problem)[candidate.compressor.index].curve;
   const double low_pa = problem.ambient.pressure_pa;
+  if (HasTank(candidate.configuration)) return true;  // as their energy is counted
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   if (IsBurst(problem)) return EnergyPerAirRises(curve, low_pa, high_pa);
   return PowerRises(curve, low_pa, high_pa);
@@ -281,7 +286,7 @@ Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double rese
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.
   if (HasOwnRegulators(candidate) || !StrokesMeet(problem) || problem.objective.energy_wh > 0.0 ||
-      candidate.configuration == Configuration::kTank || SourceWindow(problem, candidate).empty())
+      HasTank(candidate.configuration) || SourceWindow(problem, candidate).empty())
     return SizeAtVolume(problem, candidate, reservoir_m3);
   const Evaluation evaluation = Evaluate(problem, candidate, highest);
   const double parts = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, highest));

@@ -48,7 +48,7 @@ class Sweeps : public Http {
 };
 
 TEST_F(Sweeps, EachJobAnswersAsItsRequirementsAlone) {
-  const Json base = Exosuit(30.0);
+  const Json base = Exosuit(120.0);
   const std::vector<Json> merges = {Hz(0.05), {{"supply", {{"mass_kg_max", 0.2}}}}};
   const auto answered = Post(SweepOf(base, merges), {{"Prefer", "wait=60"}});
   ASSERT_EQ(answered->status, 200) << answered->body;

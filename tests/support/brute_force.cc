@@ -70,7 +70,7 @@ std::vector<Option> Reservoirs(const Problem& problem) {
 }
 
 bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
-  if (candidate.configuration == Configuration::kTank) return true;  // its fill is a setting
+  if (HasTank(candidate.configuration)) return true;  // its fill is a setting
   const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
   double inlet_pa = 0.0;
   if (candidate.configuration == Configuration::kCylinder)
@@ -125,17 +125,21 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
     bottles = Options(problem, Family::kCylinder, parts.cylinders, problem.limits.cylinders);
   if (candidate.configuration == Configuration::kCo2)
     bottles = Options(problem, Family::kCo2, parts.co2, problem.limits.co2);
-  if (candidate.configuration == Configuration::kTank)
+  if (HasTank(candidate.configuration))
     bottles = Options(problem, Family::kTank, parts.tanks, problem.limits.reservoirs);
   const bool mains = candidate.configuration == Configuration::kMains;
+  const bool fills = candidate.configuration == Configuration::kTankAndPump;
   for (const Option& regulator : regulators)
     for (const Option& bottle : bottles)
-      for (const Option& battery : mains ? std::vector<Option>{{}} : batteries) {
-        candidate.regulator = regulator;
-        candidate.bottle = bottle;
-        candidate.battery = battery;
-        if (RegulatorStands(problem, candidate)) visit(candidate);
-      }
+      for (const Option& pump : fills ? pumps() : std::vector<Option>{{}})
+        for (const Option& battery : mains ? std::vector<Option>{{}} : batteries) {
+          candidate.regulator = regulator;
+          candidate.bottle = bottle;
+          candidate.compressor = pump;
+          candidate.battery = battery;
+          if (RegulatorStands(problem, candidate) && (!fills || VoltagesMatch(problem, candidate)))
+            visit(candidate);
+        }
 }
 
 void ForEachLine(const Problem& problem, const std::vector<std::vector<Line>>& lines,
@@ -175,6 +179,9 @@ long long Combinations(const Problem& problem, Configuration configuration) {
            count(parts.batteries, limits.batteries);
   product *= count(parts.regulators, 1);
   if (configuration == Configuration::kMains) return product;
+  if (configuration == Configuration::kTankAndPump)
+    return product * count(parts.tanks, limits.reservoirs) *
+           count(PumpsOf(problem), limits.compressors) * count(parts.batteries, limits.batteries);
   return product * count(parts.batteries, limits.batteries) *
          (configuration == Configuration::kCylinder ? count(parts.cylinders, limits.cylinders)
                                                     : count(parts.co2, limits.co2));
@@ -222,7 +229,7 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   add(parts.regulators, candidate.regulator);
   if (candidate.configuration == Configuration::kCylinder) add(parts.cylinders, candidate.bottle);
   if (candidate.configuration == Configuration::kCo2) add(parts.co2, candidate.bottle);
-  if (candidate.configuration == Configuration::kTank) add(parts.tanks, candidate.bottle);
+  if (HasTank(candidate.configuration)) add(parts.tanks, candidate.bottle);
   optimizer::Option pumps = candidate.compressor;
   pumps.quantity *= FeedsByHand(problem);
   add(PumpsOf(problem), pumps);
@@ -257,7 +264,7 @@ void ForEachCombination(const Problem& problem, const Visit& visit) {
 }
 
 double StockVolume(const Problem& problem, const Candidate& candidate) {
-  if (candidate.configuration == Configuration::kTank && candidate.bottle.index >= 0)
+  if (HasTank(candidate.configuration) && candidate.bottle.index >= 0)
     return candidate.bottle.quantity * problem.parts.tanks[candidate.bottle.index].volume_m3;
   if (candidate.reservoir.index < 0) return 0.0;
   return candidate.reservoir.quantity *

@@ -58,6 +58,7 @@ Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& st
       strokes_(strokes),
       amounts_(AmountsOfAll(problem, plan)),
       least_(plan.slots.size()) {
+  if (plan.configuration == Configuration::kTankAndPump) fillers_.emplace(problem, plan);
   if (KeepsReservoir(plan.configuration)) pumps_.emplace(problem, plan, amounts_, strokes);
   if (IsDirect(plan.configuration)) direct_.emplace(problem, plan, amounts_, strokes);
 }
@@ -85,7 +86,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
   const model::Parts& parts = problem_.parts;
   Assembly source;
   source.configuration = plan_.configuration;
-  if (IsPumped(plan_.configuration)) {
+  if (HasPump(plan_.configuration)) {
     source.compressor = &PumpsOf(problem_)[item.part];
     return Any(plan_, ranges, SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& pack) {
       source.battery = &parts.batteries[pack.part];
@@ -108,7 +109,7 @@ bool Corners::SourceMates(const Ranges& ranges) const {
     return Any(plan_, ranges, slot,
                [&](const ProofItem& item) { return SourceMates(ranges, item); });
   };
-  if (IsPumped(plan_.configuration))
+  if (HasPump(plan_.configuration))
     return some_mates(SlotOf(plan_, PumpFamily(plan_.configuration), -1));
   for (int g = 0; g < RegulatorCount(problem_, plan_); ++g)
     if (!some_mates(RegulatorSlot(g))) return false;
@@ -223,6 +224,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const Inlets inlets = InletsOf(sources);
   const double energy_j = beyond_j + problem_.actuations * coil_j +
                           inlets.electrical_w * problem_.actuations / problem_.frequency_hz;
+  if (fillers_) return sum + LeastRefilled(ranges, inlets, air_m3, energy_j);
   if (plan_.configuration == Configuration::kTank)
     return sum + LeastTank(ranges, inlets, first, air_m3) + LeastBattery(ranges, energy_j);
   return LeastStores(ranges, inlets, {air_m3, energy_j}, sum);
@@ -274,6 +276,47 @@ double Corners::LeastTank(const Ranges& ranges, const Inlets& inlets, const Sour
   }
   return objective +
          problem_.objective.mass_kg * mission_m3 / kSlack * model::kReferenceDensityKgPerM3;
+}
+
+// What the fullest tank of the box does not hold pumps must deliver, above the pressure at which it
+// keeps the air of the last period; and what the strongest pumps do not deliver a tank must hold,
+// at least that air.
+double Corners::LeastRefilled(const Ranges& ranges, const Inlets& inlets, double air_m3,
+                              double energy_j) {
+  const double inlet_pa = std::max(inlets.low_pa, inlets.min_pa);
+  const int slot = SlotOf(plan_, Family::kTank, -1);
+  const double per_m3_pa = model::StandardVolume(1.0, problem_.ambient.temperature_k);
+  std::vector<double> given_m3;
+  double largest_m3 = 0.0, most_m3 = 0.0;
+  for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+    const ProofItem& item = plan_.slots[slot].choices[i];
+    const model::Reservoir& tank = problem_.parts.tanks[item.part];
+    const double fill_pa =
+        std::min({tank.pressure_max_pa, problem_.tank_fill_max_pa, inlets.max_pa});
+    const double volume_m3 = item.quantity * tank.volume_m3;
+    given_m3.push_back(volume_m3 * per_m3_pa * (fill_pa - inlet_pa));
+    largest_m3 = std::max(largest_m3, volume_m3);
+    most_m3 = std::max(most_m3, given_m3.back());
+  }
+  const double kept_pa = inlet_pa + air_m3 / (largest_m3 * per_m3_pa) / kSlack;
+  const PumpCells& pumps =
+      fillers_->CellsIn(ranges[SlotOf(plan_, PumpFamily(plan_.configuration), -1)]);
+  const double seconds = (problem_.actuations - 1.0) / problem_.frequency_hz;
+  const double pumped_m3 = kept_pa > pumps.highest_pa * kSlack
+                               ? 0.0
+                               : pumps.duty_max * fillers_->DeliveryAt(pumps, kept_pa) * seconds;
+  const double mission_m3 = problem_.actuations * air_m3 / kSlack;
+  const double held_m3 = std::max(mission_m3 - pumped_m3, air_m3 / kSlack);
+  double objective = kUnlimited;
+  for (std::size_t i = 0; i < given_m3.size(); ++i)
+    if (given_m3[i] * kSlack >= held_m3)
+      objective = std::min(
+          objective, amounts_[slot][static_cast<std::size_t>(ranges[slot].first) + i].objective);
+  const double lacking_m3 = mission_m3 - most_m3;
+  const double pump_j =
+      lacking_m3 > 0.0 ? lacking_m3 * pumps.energy_j_per_m3[fillers_->CellOf(kept_pa)] : 0.0;
+  return objective + problem_.objective.mass_kg * held_m3 * model::kReferenceDensityKgPerM3 +
+         problem_.objective.energy_wh * pump_j / 3600.0 + LeastBattery(ranges, energy_j + pump_j);
 }
 
 double Corners::LeastBattery(const Ranges& ranges, double energy_j) {

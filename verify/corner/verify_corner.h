@@ -65,6 +65,7 @@ class Corners {
   static Inlets InletsOf(const std::vector<SourceBounds>& sources);
   double LeastTank(const Ranges& ranges, const Inlets& inlets, const SourceBounds& source,
                    double air_m3);
+  double LeastRefilled(const Ranges& ranges, const Inlets& inlets, double air_m3, double energy_j);
   double LeastBattery(const Ranges& ranges, double energy_j);
   // `sum` with the least of the bottles and batteries that hold so much.
   double LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored, double sum);
@@ -82,6 +83,7 @@ class Corners {
   std::map<SlotRange, Packs> packs_;
   std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
   std::optional<Pumps> pumps_;
+  std::optional<PumpChoices> fillers_;
   std::optional<DirectPumps> direct_;
 };
 

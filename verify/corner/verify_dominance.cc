@@ -98,7 +98,7 @@ bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, c
   if (family == Family::kCo2) return GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
   if (family == PumpFamily(plan.configuration))
     return n == m && PumpsOf(problem)[i].curve == PumpsOf(problem)[j].curve;
-  if (family == Family::kBattery && IsPumped(plan.configuration))
+  if (family == Family::kBattery && HasPump(plan.configuration))
     return Drives(problem, parts.batteries[i], parts.batteries[j]);
   return true;
 }

@@ -45,12 +45,13 @@ bool Whole(const Problem& problem, const Assembly& a) {
       return false;
   const Configuration c = a.configuration;
   const bool pump = IsPumped(c);
-  const bool tank = c == Configuration::kTank;
+  const bool tank = HasTank(c), filler = c == Configuration::kTankAndPump;
   if (std::count(a.regulators.begin(), a.regulators.end(), nullptr) > 0 ||
       (a.owns() && a.regulators.size() != a.lines.size()))
     return false;
-  return (tank || a.regulators.empty() == pump) && (a.tank != nullptr) == tank &&
-         (a.compressor != nullptr) == pump && (a.reservoirs > 0) == KeepsReservoir(c) &&
+  return (c == Configuration::kTank || a.regulators.empty() == pump) &&
+         (a.tank != nullptr) == tank && (a.filler() != nullptr) == filler &&
+         (a.pump() != nullptr) == pump && (a.reservoirs > 0) == KeepsReservoir(c) &&
          (a.battery != nullptr) == (c != Configuration::kMains) &&
          (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
          (a.co2 != nullptr) == (c == Configuration::kCo2);
@@ -173,7 +174,7 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   if (a.battery) add(Times(a.batteries, a.battery->basics));
   if (a.reservoir)
     add(Times(a.reservoirs, a.reservoir->basics));
-  else if (a.compressor && !a.direct())
+  else if (a.pump() && !a.direct())
     add(Made(problem, settings));
 }
 
@@ -227,7 +228,7 @@ bool Fit(const Problem& problem, const Assembly& source) {
   if (source.compressor)
     return model::VoltageMatches(source.battery->nominal_voltage_v,
                                  source.compressor->curve.voltage_v);
-  if (source.configuration == Configuration::kTank) return true;  // its fill is a setting
+  if (HasTank(source.configuration)) return true;  // its fill is a setting
   // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
   const double inlet_pa =
       source.cylinder ? source.cylinder->fill_pressure_pa + source.cylinder->fill_pressure_spread_pa

@@ -30,6 +30,9 @@ struct Assembly {
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
   const model::Reservoir* tank = nullptr;       // with or without a regulator
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
+  // What strokes draw from, and what goes on filling a tank.
+  const model::Compressor* pump() const { return tank ? nullptr : compressor; }
+  const model::Compressor* filler() const { return tank ? compressor : nullptr; }
   bool direct() const { return IsDirect(configuration); }
   bool owns() const { return regulators.size() > 1; }  // each group has its own
   bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are

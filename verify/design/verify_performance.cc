@@ -214,9 +214,15 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   expect("run_time_s", claimed.run_time_s, problem.actuations / problem.frequency_hz,
          kSumTolerance);
   expect("energy", design.totals.energy_j, EnergyOf(problem, supply, *cycle), kEnergyTolerance);
-  if (assembly.compressor)
+  if (assembly.pump())
     expect("compressor_duty", design.settings.compressor_duty.value_or(0.0),
            cycle->pump_on_s * problem.frequency_hz, kEnergyTolerance);
+  if (assembly.filler())
+    expect("compressor_duty", design.settings.compressor_duty.value_or(0.0),
+           supply.refilled.on_s * problem.frequency_hz / problem.actuations, kEnergyTolerance);
+  if (assembly.filler() || design.settings.pump_stop_pa)
+    expect("pump_stop", design.settings.pump_stop_pa.value_or(0.0), supply.refilled.stop_pa,
+           kTimeTolerance);
   if (assembly.battery && supply.current_a > assembly.batteries * assembly.battery->current_max_a *
                                                  (1.0 + kEnergyTolerance))
     findings.push_back({"supply", "the batteries do not give the current"});

@@ -58,7 +58,7 @@ class PressureSizing {
     if (volumes.high_m3 > volumes.low_m3)
       resolution_ =
           std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
-    if (assembly.compressor && !assembly.direct()) held_ = cycles.PumpHeld(stood_.high_pa);
+    if (assembly.pump() && !assembly.direct()) held_ = cycles.PumpHeld(stood_.high_pa);
   }
 
   // Known after Run: no lower source pressure is fast enough.
@@ -146,7 +146,7 @@ class PressureSizing {
     Settings settings;
     settings.source_pressure_pa = source_pa;
     if (groups_) settings.group_pressure_pa = PressuresAt(*groups_, assembly_, source_pa);
-    if (assembly_.compressor && !assembly_.direct()) settings.reservoir_volume_m3 = volume_m3;
+    if (assembly_.pump() && !assembly_.direct()) settings.reservoir_volume_m3 = volume_m3;
     return settings;
   }
 
@@ -252,8 +252,7 @@ class PressureSizing {
   std::pair<double, double> Judge(double source_pa, const Cycle& cycle) const {
     Settings settings = SettingsAt(source_pa, volumes_.low_m3);
     if (assembly_.tank)
-      settings.tank_fill_pa = LeastFillPa(problem_, assembly_, source_pa,
-                                          (1.0 - slack_) * problem_.actuations * cycle.air_m3);
+      settings.tank_fill_pa = FillFor(problem_, assembly_, source_pa, cycle, slack_);
     const Supply supply = SupplyOf(problem_, settings, assembly_, cycle);
     double excess = StrokeExcess(cycle);
     Totals totals = TotalsOf(problem_, assembly_, settings);
@@ -384,7 +383,7 @@ Sizing Sizer::SizeAsIs(const Assembly& assembly, double slack, double enough) {
   if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_, &fills_);
   if (assembly.direct())
     return PressureSizing(problem_, assembly, *cycles_, {0.0, 0.0}, slack).RunDirect();
-  if (assembly.compressor && !assembly.reservoir)
+  if (assembly.pump() && !assembly.reservoir)
     return SizeMade(problem_, assembly, *cycles_, slack, enough, stop_);
   if (assembly.owns()) {
     const GroupRanges ranges = RangesOf(*cycles_, assembly, slack);

@@ -42,9 +42,9 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
   }
   if (a.configuration == Configuration::kMains)
     high_pa = std::min(high_pa, problem.mains.pressure_pa);
-  if (a.compressor) high_pa = std::min(high_pa, model::HighestPressure(a.compressor->curve));
+  if (a.pump()) high_pa = std::min(high_pa, model::HighestPressure(a.pump()->curve));
   if (a.reservoir) high_pa = std::min(high_pa, a.reservoir->pressure_max_pa);
-  if (a.compressor && !a.reservoir && !a.direct())
+  if (a.pump() && !a.reservoir && !a.direct())
     high_pa =
         std::min(high_pa, problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);
   for (int g = 0; g < static_cast<int>(a.lines.size()); ++g)
@@ -72,6 +72,21 @@ bool Stand(const Problem& problem, const Settings& settings, const Assembly& a) 
   return true;
 }
 
+namespace {
+
+// Pumps that go on filling a tank draw most at their stop pressure.
+void AddRefill(const Problem& problem, const Settings& settings, const Assembly& a,
+               const Cycle& cycle, Supply& supply) {
+  supply.refilled = RefillCurve(problem, a, settings.source_pressure_pa, cycle.air_m3)
+                        .At(settings.tank_fill_pa.value_or(0.0));
+  supply.gas_m3 = (supply.refilled.lasts_s * problem.frequency_hz + 1.0) * cycle.air_m3;
+  supply.current_a =
+      a.compressors * model::LargestCurrent(a.filler()->curve, problem.ambient.pressure_pa,
+                                            supply.refilled.stop_pa);
+}
+
+}  // namespace
+
 Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly& a,
                 const Cycle& cycle) {
   Supply supply;
@@ -94,13 +109,14 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
     const double fall_pa = settings.tank_fill_pa.value_or(0.0) - InletPa(problem, a, source_pa);
     supply.gas_m3 = model::StandardVolume(TankVolume(a) * std::max(0.0, fall_pa), temperature_k);
   }
+  if (a.filler()) AddRefill(problem, settings, a, cycle, supply);
   if (a.co2) {
     supply.gas_m3 = a.bottles * model::Co2UsableVolume(a.co2->co2_mass_kg, a.co2->water_volume_m3,
                                                        inlet_pa, temperature_k);
     supply.frequency_hz =
         std::min(supply.frequency_hz, a.bottles * a.co2->flow_sustained_m3_per_s / cycle.air_m3);
   }
-  if (a.compressor) {
+  if (a.pump()) {
     const double ambient_pa = problem.ambient.pressure_pa;
     const double volume_m3 = settings.reservoir_volume_m3.value_or(0.0) + a.ReservoirSpread();
     if (a.direct()) {
@@ -110,14 +126,14 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
                      FillSecondsMax(problem, a, g) * problem.frequency_hz / cycle.inflate_s[g]);
     } else {
       supply.first_fill_j =
-          model::EnergyToFill(a.compressor->curve, volume_m3, ambient_pa, source_pa, temperature_k);
+          model::EnergyToFill(a.pump()->curve, volume_m3, ambient_pa, source_pa, temperature_k);
       supply.first_fill_m3 =
           model::StandardVolume(volume_m3 * (source_pa - ambient_pa), temperature_k);
     }
     const int running = a.direct() ? FeedsRunning(problem) : 1;
     supply.current_a =
-        running * a.compressors * model::LargestCurrent(a.compressor->curve, ambient_pa, source_pa);
-    supply.frequency_hz = std::min(supply.frequency_hz, a.compressor->duty_max / cycle.pump_on_s);
+        running * a.compressors * model::LargestCurrent(a.pump()->curve, ambient_pa, source_pa);
+    supply.frequency_hz = std::min(supply.frequency_hz, a.pump()->duty_max / cycle.pump_on_s);
   }
   if (a.battery) {
     supply.energy_j =
@@ -128,7 +144,8 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
 }
 
 double EnergyOf(const Problem& problem, const Supply& supply, const Cycle& cycle) {
-  return supply.first_fill_j + problem.actuations * (cycle.pump_j + cycle.electric_j());
+  return supply.first_fill_j + supply.refilled.energy_j +
+         problem.actuations * (cycle.pump_j + cycle.electric_j());
 }
 
 namespace {
@@ -179,7 +196,8 @@ std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
     at_most(at + "fall_time_s_max", group.fall_time_max_s, cycle.fall_s[g], kTimeTolerance);
   }
   all["/duty/frequency_hz"] = {problem.frequency_hz, supply.frequency_hz, false, kEnergyTolerance};
-  const double per_cycle_j = cycle.pump_j + cycle.electric_j();
+  const double per_cycle_j =
+      cycle.pump_j + cycle.electric_j() + supply.refilled.energy_j / problem.actuations;
   const double actuations = std::min(
       supply.gas_m3 / cycle.air_m3,
       per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j : kUnlimited);

@@ -30,6 +30,8 @@ using optimizer::Family;
 using optimizer::Front;
 using optimizer::GroupPerformance;
 using optimizer::HasOwnRegulators;
+using optimizer::HasPump;
+using optimizer::HasTank;
 using optimizer::IsDirect;
 using optimizer::IsPumped;
 using optimizer::KeepsReservoir;

@@ -19,7 +19,7 @@ constexpr long long kReportEvery = 1 << 16;  // combinations
 // Sums of parts are exact; where settings count they are sought in two ways that agree to this.
 double ObjectiveTolerance(const Problem& problem, const Assembly& assembly) {
   const bool settings =
-      assembly.tank || (assembly.compressor && !assembly.reservoir && !assembly.direct());
+      assembly.tank || (assembly.pump() && !assembly.reservoir && !assembly.direct());
   return problem.objective.energy_wh > 0.0 ? 1e-4 : settings ? 1e-5 : kSumTolerance;
 }
 
@@ -117,7 +117,7 @@ class Enumeration {
       }
       case Family::kRegulator:
         if (plan().configuration == Configuration::kCylinder) return true;  // asked with the bottle
-        if (plan().configuration == Configuration::kTank) return true;
+        if (HasTank(plan().configuration)) return true;
         source.regulators = {&parts.regulators[part]};
         if (plan().configuration == Configuration::kCo2 && !parts.co2.empty())
           source.co2 = &parts.co2.front();
@@ -131,7 +131,7 @@ class Enumeration {
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
-        if (!IsPumped(plan().configuration)) return true;
+        if (!HasPump(plan().configuration)) return true;
         source.compressor = &PumpsOf(problem_)[part_of(PumpFamily(plan().configuration))];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);

@@ -51,7 +51,8 @@ void CheckFront(const Problem& problem, const Front& front, const Stop& stop, Fi
                                          std::to_string(j + 1)});
   const bool energy = std::find(amounts.begin(), amounts.end(), Amount::kEnergy) != amounts.end();
   const bool made = problem.configurations.contains(Configuration::kCompressor);
-  const bool curve = energy && (made || problem.configurations.contains(Configuration::kTank));
+  const bool curve = energy && (made || problem.configurations.contains(Configuration::kTank) ||
+                                problem.configurations.contains(Configuration::kTankAndPump));
   if (front.resolution > (curve ? kCurve : made ? kMade : kExact))
     findings.push_back({"front", "the resolution hides points"});
   const bool whole = answer.status == Status::kOptimal || answer.status == Status::kInfeasible;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "api/design/read/combination.h"
+#include "api/design/read/stock_volume.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/joints.h"
 #include "optimizer/sizing/report.h"

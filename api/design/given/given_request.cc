@@ -6,6 +6,7 @@
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
 #include "api/design/read/joint_rows.h"
+#include "api/design/read/stock_volume.h"
 #include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/remarks.h"

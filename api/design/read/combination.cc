@@ -7,6 +7,7 @@
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/joint_rows.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/stock_volume.h"
 #include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
@@ -32,10 +33,6 @@ constexpr double kRounding = 1e-6;  // relative, of a stated length or volume
 
 bool Near(double a, double b) { return std::abs(a - b) <= kRounding * std::abs(b); }
 
-bool IsCustom(const Choice& choice) {
-  return choice.family == Family::kReservoir && choice.id == kCustomReservoir;
-}
-
 std::string KpaGauge(double pressure_pa, const Problem& problem) {
   return Decimal(Rounded(optimizer::KpaGauge(problem, pressure_pa))) + " kPa gauge";
 }
@@ -54,12 +51,6 @@ const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
   for (const Part& part : parts)
     if (IdOf(part) == choice->id) return &part;
   return nullptr;
-}
-
-// Of a reservoir or a tank that the problem has.
-const model::Reservoir& StockOf(const Problem& problem, const Choice& choice) {
-  return *Find(choice.family == Family::kTank ? problem.parts.tanks : problem.parts.reservoirs,
-               &choice);
 }
 
 // The field that says how many pieces of a part of the source there may be; null: always one.
@@ -181,7 +172,7 @@ class Check {
     const std::string family = optimizer::Name(choice.family);
     const auto found = std::find_if(catalogue_.begin(), catalogue_.end(),
                                     [&](const auto& part) { return part.id == choice.id; });
-    if (found == catalogue_.end() && !IsCustom(choice)) {
+    if (found == catalogue_.end() && !IsMadeToMeasure(choice)) {
       std::vector<std::string> ids;
       for (const catalog::Part& part : catalogue_)
         if (part.family == family) ids.push_back(part.id);
@@ -196,7 +187,7 @@ class Check {
     } else if (!IsAllowed(problem_, choice.family, choice.id)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is none of those that require." + family + " asks for");
-    } else if (optimizer::Evacuated(problem_) && IsCustom(choice)) {
+    } else if (optimizer::Evacuated(problem_) && IsMadeToMeasure(choice)) {
       FailRow(choice, "/id", "a reservoir made to measure is built for pressure, not for a vacuum");
     } else if (optimizer::Evacuated(problem_) && !StandsVacuum(*found)) {
       FailRow(choice, "/id",
@@ -235,9 +226,9 @@ class Check {
   }
 
   void CheckSourceQuantity(const Choice& choice) {
-    const int most = IsCustom(choice) ? 1 : optimizer::QuantityMax(problem_, choice.family);
-    const char* field = IsCustom(choice) ? nullptr : LimitField(choice.family);
-    const int feeds = IsCustom(choice) ? 1 : optimizer::FeedsOf(problem_, choice.family);
+    const int most = IsMadeToMeasure(choice) ? 1 : optimizer::QuantityMax(problem_, choice.family);
+    const char* field = IsMadeToMeasure(choice) ? nullptr : LimitField(choice.family);
+    const int feeds = IsMadeToMeasure(choice) ? 1 : optimizer::FeedsOf(problem_, choice.family);
     const double n = choice.quantity / feeds;  // of a feed
     if (n == std::floor(n) && n >= 1 && n <= most) return;
     const std::string limit = field ? std::string(" (limits.") + field + ")" : "";
@@ -288,9 +279,9 @@ class Check {
                 "has " + Decimal(pack_v) + " V, but " + Quoted(IdOf(*pump)) + " runs at " +
                     Decimal(pump->curve.voltage_v) + " V, within 15 %");
       if (optimizer::IsDirect(design_.configuration)) CheckDirectValves();
-      return;
+      if (optimizer::IsPumped(design_.configuration)) return;
     }
-    if (design_.configuration == Configuration::kTank) return CheckTank();
+    if (optimizer::HasTank(design_.configuration)) return CheckTank();
     const auto* cylinder = Find(parts.cylinders, RowOf(Family::kCylinder));
     const double supply_pa = cylinder ? cylinder->fill_pressure_pa
                              : design_.configuration == Configuration::kCo2
@@ -355,11 +346,15 @@ class Check {
     const std::optional<double> given = design_.settings.reservoir_volume_m3;
     const std::string is = given ? ", not " + Decimal(Rounded(MlFromM3(*given))) : "";
     const Choice* row = RowOf(optimizer::FamilyIn(design_.configuration, Family::kReservoir));
-    if (design_.settings.tank_fill_pa && design_.configuration != Configuration::kTank)
+    const optimizer::Settings& settings = design_.settings;
+    if (settings.tank_fill_pa && !optimizer::HasTank(design_.configuration))
       Fail("/settings/tank_fill_kpa_gauge", "must be left out: " + Is() + " has no tank");
+    if (settings.pump_stop_pa && design_.configuration != Configuration::kTankAndPump)
+      Fail("/settings/pump_stop_kpa_gauge",
+           "must be left out: " + Is() + " fills no tank by pumps");
     if (row == nullptr) {
       if (given) Fail(place, "must be left out: " + Is() + " has no reservoir");
-    } else if (!IsCustom(*row)) {
+    } else if (!IsMadeToMeasure(*row)) {
       const double stock_m3 = row->quantity * StockOf(problem_, *row).volume_m3;
       if (given && !Near(*given, stock_m3))
         Fail(place, "must be " + Decimal(Rounded(MlFromM3(stock_m3))) + ", the volume of " +
@@ -388,13 +383,6 @@ void CheckCombination(const Design& design, const Problem& problem,
                       const std::vector<catalog::Part>& catalogue, const std::string& pointer,
                       Errors& errors) {
   Check(design, problem, catalogue, pointer, errors).Run();
-}
-
-Design WithReservoirVolume(Design design, const Problem& problem) {
-  for (const Choice& choice : design.parts)
-    if (optimizer::CatalogueFamily(choice.family) == Family::kReservoir && !IsCustom(choice))
-      design.settings.reservoir_volume_m3 = choice.quantity * StockOf(problem, choice).volume_m3;
-  return design;
 }
 
 }  // namespace plenum::api

@@ -25,10 +25,6 @@ void CheckCombination(const optimizer::Design& design, const optimizer::Problem&
                       const std::vector<catalog::Part>& catalogue, const std::string& pointer,
                       Errors& errors);
 
-// The design with the volume of the stock reservoir that it names, where it states none. The design
-// has passed CheckCombination().
-optimizer::Design WithReservoirVolume(optimizer::Design design, const optimizer::Problem& problem);
-
 }  // namespace plenum::api
 
 #endif  // PLENUM_API_DESIGN_READ_COMBINATION_H_

@@ -54,7 +54,7 @@ Configuration ReadConfiguration(Reader& design) {
       design, "configuration",
       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
        Configuration::kMains, Configuration::kTank, Configuration::kDirectPump,
-       Configuration::kVacuumPump, Configuration::kDirectVacuumPump});
+       Configuration::kVacuumPump, Configuration::kDirectVacuumPump, Configuration::kTankAndPump});
 }
 
 optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration configuration) {
@@ -83,6 +83,8 @@ optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configurat
     settings.reservoir_volume_m3 = M3FromMl(*ml);
   if (const auto kpa = reader.OptionalNumber("tank_fill_kpa_gauge", {0, kGaugeMaxKpa}))
     settings.tank_fill_pa = PaFromKpaGauge(*kpa, problem.ambient);
+  if (const auto kpa = reader.OptionalNumber("pump_stop_kpa_gauge", {0, kGaugeMaxKpa}))
+    settings.pump_stop_pa = PaFromKpaGauge(*kpa, problem.ambient);
   if (reader.Has("group_pressure_kpa_gauge"))
     for (const double kpa :
          reader.Numbers("group_pressure_kpa_gauge", problem.groups.size(), {0, kGaugeMaxKpa}))

@@ -30,8 +30,9 @@ optimizer::Configuration ReadConfiguration(Reader& design);
 optimizer::Choice ReadChoice(Reader& row, const optimizer::Problem& problem,
                              optimizer::Configuration configuration);
 
-// "source_pressure_kpa_gauge", "reservoir_volume_ml" and "tank_fill_kpa_gauge" of "settings":
-// positive and finite. Of pumps without a reservoir the pressure is no setting and may be left out.
+// "source_pressure_kpa_gauge", "reservoir_volume_ml", "tank_fill_kpa_gauge", "pump_stop_kpa_gauge"
+// of "settings": positive and finite. Of pumps without a reservoir the pressure is no setting and
+// may be left out.
 optimizer::Settings ReadPoint(Reader& settings, const optimizer::Problem& problem,
                               optimizer::Configuration configuration);
 

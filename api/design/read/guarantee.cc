@@ -76,8 +76,9 @@ std::string WhyNotGuaranteed(const optimizer::Problem& problem, const GuaranteeR
            "/actuators/…/relative_uncertainty";
   if (problem.objective.energy_wh > 0.0)
     return "ranks by mass, volume and cost; energy is told at its upper value and not minimised";
-  if (problem.configurations.contains(optimizer::Configuration::kTank))
-    return "is not for tanks yet: leave tank out of /supply/configurations";
+  if (problem.configurations.contains(optimizer::Configuration::kTank) ||
+      problem.configurations.contains(optimizer::Configuration::kTankAndPump))
+    return "is not for tanks yet: leave tank and tank_and_pump out of /supply/configurations";
   if (problem.configurations.contains(optimizer::Configuration::kDirectPump))
     return "is not for pumps without a reservoir yet: leave direct_pump out of "
            "/supply/configurations";

@@ -30,11 +30,7 @@ using optimizer::Configuration;
 
 const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 
-// A request that names none asks for all but a tank, which has to be filled somewhere, and pumps
-// without a reservoir, and for the mains only if it has them.
-constexpr Configuration kAllConfigurations[] = {
-    Configuration::kCylinder, Configuration::kCo2,  Configuration::kCompressor,
-    Configuration::kMains,    Configuration::kTank, Configuration::kDirectPump};
+constexpr auto& kAllConfigurations = optimizer::kPressureConfigurations;
 
 void ReadDuty(Reader& request, optimizer::Problem& problem) {
   Reader duty = request.Object("duty");
@@ -44,10 +40,12 @@ void ReadDuty(Reader& request, optimizer::Problem& problem) {
   duty.Finish();
 }
 
+// A request that names none asks for all but tanks, which have to be filled somewhere, and pumps
+// without a reservoir, and for the mains only if it has them.
 void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& problem) {
   if (!supply.Has("configurations")) {
     for (const Configuration configuration : kAllConfigurations)
-      if (configuration != Configuration::kTank && configuration != Configuration::kDirectPump &&
+      if (!optimizer::HasTank(configuration) && configuration != Configuration::kDirectPump &&
           (configuration != Configuration::kMains || has_mains))
         problem.configurations.insert(configuration);
     return;
@@ -90,9 +88,11 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
     problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
   const auto fill = supply.OptionalNumber("tank_fill_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (fill) problem.tank_fill_max_pa = PaFromKpaGauge(*fill, problem.ambient);
-  if (fill && !problem.configurations.contains(Configuration::kTank))
+  if (fill && !problem.configurations.contains(Configuration::kTank) &&
+      !problem.configurations.contains(Configuration::kTankAndPump))
     supply.Fail("tank_fill_kpa_gauge_max",
-                "is for the configuration tank, which supply.configurations does not name");
+                "is for the configurations tank and tank_and_pump, of which "
+                "supply.configurations names none");
   const auto limit = [&](const char* name) {
     return supply.OptionalNumber(name, kAmount).value_or(optimizer::kUnlimited);
   };
@@ -213,10 +213,12 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
   if (optimizer::Evacuated(parsed.problem))
     request.Fail("model",
                  "is for actuators under pressure: effects of evacuated ones are not known");
-  if (parsed.problem.configurations.contains(Configuration::kTank))
-    request.FailAt("supply/configurations",
-                   "must be without tank where a model is named, whose effects are judged in a "
-                   "cycle that repeats");
+  for (const Configuration tank : {Configuration::kTank, Configuration::kTankAndPump})
+    if (parsed.problem.configurations.contains(tank))
+      request.FailAt("supply/configurations",
+                     "must be without " + std::string(optimizer::Name(tank)) +
+                         " where a model is named, whose effects are judged in a cycle that "
+                         "repeats");
   if (parsed.problem.configurations.contains(Configuration::kDirectPump))
     request.FailAt("supply/configurations",
                    "must be without direct_pump where a model is named, whose effects are judged "

@@ -113,7 +113,8 @@ class Planter {
       PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
-      if (plan_->configuration == Configuration::kTank) plan_->bottle_slot = PlantTanks();
+      if (HasTank(plan_->configuration)) plan_->bottle_slot = PlantTanks();
+      if (HasPump(plan_->configuration)) plan_->compressor_slot = PlantCompressors();
     }
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
     if (stopped()) return nullptr;

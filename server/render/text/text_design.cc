@@ -56,6 +56,9 @@ std::string SettingsText(const Json& design) {
   if (const Json fill = settings.value("tank_fill_kpa_gauge", Json()); fill.is_number()) {
     text += fmt::format(" filled to {} kPa gauge", Short(fill));
   }
+  if (const Json stop = settings.value("pump_stop_kpa_gauge", Json()); stop.is_number()) {
+    text += fmt::format(", the pump runs below {}", Short(stop));
+  }
   if (const Json power = settings.value("power", Json()); power.is_object()) {
     text += fmt::format("\n  Power: from the {}", power.at("kind").get<std::string>());
     if (power.at("voltage_v").is_number())

@@ -1,4 +1,5 @@
 // Tanks filled beforehand, from the request to the checked answer.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -133,6 +134,67 @@ TEST(TankTest, ADesignThatCannotBeIsNamed) {
                             [](const Json& row) { return row["family"] == "reservoir"; });
             }),
             "/design/parts ");
+}
+
+// ── tanks that a pump goes on filling ──
+
+Json Refilled() {
+  Json request = Example("refilled_arm");
+  request["supply"]["configurations"] = {"tank_and_pump"};
+  request["ranking"] = {{"count", 3}, {"list", "combinations"}, {"proof", true}};
+  return request;
+}
+
+TEST(TankTest, WithAPumpIsDesignedVerifiedAndEvaluated) {
+  const Json answer = Answered(Refilled());
+  EXPECT_EQ(answer["status"], "optimal");
+  ASSERT_FALSE(answer["designs"].empty());
+  EXPECT_EQ(Refusals(answer), "");
+  for (const Json& design : answer["designs"]) {
+    EXPECT_EQ(design["configuration"], "tank_and_pump");
+    EXPECT_TRUE(HasRegulator(design));
+    const Json& settings = design["settings"];
+    EXPECT_LE(settings["tank_fill_kpa_gauge"].get<double>(), 800.0);
+    EXPECT_LE(settings["pump_stop_kpa_gauge"].get<double>(),
+              settings["tank_fill_kpa_gauge"].get<double>());
+    EXPECT_GE(settings["pump_stop_kpa_gauge"].get<double>(),
+              settings["source_pressure_kpa_gauge"].get<double>());
+    EXPECT_GE(settings["compressor_duty"].get<double>(), 0.0);
+  }
+  const Json& first = answer["designs"][0];
+  for (const bool stated : {true, false}) {  // what is left out is found
+    Json given = first;
+    if (!stated) given["settings"].erase("pump_stop_kpa_gauge");
+    if (!stated) given["settings"].erase("tank_fill_kpa_gauge");
+    const Json evaluated = std::get<Json>(Evaluated(Refilled(), given));
+    EXPECT_EQ(evaluated["works"], true);
+    EXPECT_NEAR(evaluated["totals"]["mass_kg"].get<double>(),
+                first["totals"]["mass_kg"].get<double>(), 1e-8);
+    EXPECT_NEAR(evaluated["totals"]["energy_wh"].get<double>(),
+                first["totals"]["energy_wh"].get<double>(),
+                1e-6 * first["totals"]["energy_wh"].get<double>());
+  }
+}
+
+TEST(TankTest, APumpThatStopsHigherTakesMore) {
+  const Json answer = Answered(Refilled());
+  ASSERT_FALSE(answer["designs"].empty());
+  Json given = answer["designs"][0];
+  ASSERT_GT(given["settings"]["compressor_duty"].get<double>(), 0.0);
+  Json& stop = given["settings"]["pump_stop_kpa_gauge"];
+  stop = stop.get<double>() + 2.0;
+  const Json evaluated = std::get<Json>(Evaluated(Refilled(), given));
+  EXPECT_GT(evaluated["totals"]["energy_wh"].get<double>(),
+            given["totals"]["energy_wh"].get<double>());
+}
+
+TEST(TankTest, AStopPressureIsForPumpsThatFillATank) {
+  const Json request = Asked(false);
+  Json design = Answered(request)["designs"][0];
+  design["settings"]["pump_stop_kpa_gauge"] = 200.0;
+  const Errors errors = ErrorsOf(Evaluated(request, design));
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_THAT(errors[0].pointer, ::testing::EndsWith("/settings/pump_stop_kpa_gauge"));
 }
 
 }  // namespace

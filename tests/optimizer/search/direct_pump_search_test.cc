@@ -224,7 +224,7 @@ TEST(DirectPumpSearch, KindsHaveThePumpsSeriesAsTheirSource) {
     const Answer answer = Recorded(problem);
     const optimizer::DesignKinds kinds(problem.parts);
     for (const Design& design : answer.designs) {
-      EXPECT_GE(kinds.Of(design.configuration, design.parts).source, 0);
+      EXPECT_EQ(kinds.Of(design.configuration, design.parts).sources.size(), 1u);
       ++listed;
     }
     ExpectVerified(problem, answer);

@@ -158,10 +158,10 @@ TEST(TankSearch, KindsHaveTheTanksSeriesAsTheirSource) {
     std::map<int, int> of_source;
     for (const Design& design : answer.designs) {
       const optimizer::Kind kind = kinds.Of(design.configuration, design.parts);
-      EXPECT_GE(kind.source, 0);
+      ASSERT_EQ(kind.sources.size(), 1u);
       EXPECT_EQ(kind.regulators.empty(), IsOpen(design));
       EXPECT_TRUE(seen.insert(kind).second);
-      EXPECT_LE(++of_source[kind.source], 2);
+      EXPECT_LE(++of_source[kind.sources.front()], 2);
       ++listed;
     }
     ExpectVerified(problem, answer);

@@ -35,7 +35,7 @@ std::optional<State> Repeating(const Problem& problem, const Settings& settings,
     if (response.status != model::SimulateStatus::kDone) return std::nullopt;
     State next = state;
     bool same = cycle > 0;
-    if (assembly.compressor) next.source_pa = response.source_final_pressure_pa;
+    if (assembly.pump()) next.source_pa = response.source_final_pressure_pa;
     same = same && Near(next.source_pa, state.source_pa, kPeriodic);
     for (std::size_t u = 0; u < next.unit_pa.size(); ++u) {
       next.unit_pa[u] = response.groups[u].final_pressure_pa;
@@ -207,7 +207,7 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop 
         Target(problem, problem.groups[g], problem.fall_fraction), temperature_k);
     rigs_.push_back(rig);
   }
-  if (assembly.compressor)
+  if (assembly.pump())
     for (std::size_t u = 0; u < fills_.size(); ++u)
       fill_tables_.emplace_back(fills_[u], model::MirrorPa(rigs_[u].chamber));
 }
@@ -247,7 +247,7 @@ double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3
   const model::GroupRig& rig = rigs_[unit];
   const int g = units_[unit].group;
   const double strokes = problem_.groups[g].gait.strokes_per_period;
-  const model::CompressorCurve& curve = assembly_.compressor->curve;
+  const model::CompressorCurve& curve = assembly_.pump()->curve;
   const double temperature_k = problem_.ambient.temperature_k;
   const double source_pa = settings.source_pressure_pa;
   model::ReservoirStrokeInput input;
@@ -303,7 +303,7 @@ double QuickCycles::FillFromTank(double& tank_pa, int unit, Cycle& cycle) const 
 }
 
 std::optional<Cycle> QuickCycles::EachAlone(const Settings& settings, double rising_m3) const {
-  if (units_.size() < 2 || !assembly_.compressor || assembly_.direct()) return std::nullopt;
+  if (units_.size() < 2 || !assembly_.pump() || assembly_.direct()) return std::nullopt;
   Cycle cycle = EmptyCycle(problem_);
   cycle.fall_s = fall_s_;
   for (int u = 0; u < static_cast<int>(units_.size()); ++u)
@@ -314,7 +314,7 @@ std::optional<Cycle> QuickCycles::EachAlone(const Settings& settings, double ris
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
   if (Stopped(stop_)) return std::nullopt;
   // A valve that cannot hold lets its actuators draw while others do.
-  const bool open_ones = assembly_.compressor && !Holding(assembly_);
+  const bool open_ones = assembly_.pump() && !Holding(assembly_);
   if (units_.size() > 1 && (SomeAtOnce(problem_) || open_ones))
     return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   // Each stroke out of an open tank finds less than the one before, in the order of the period.
@@ -335,9 +335,9 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
               .Add(problem_, assembly_, units_[u], fills_[u], cycle);
       continue;
     }
-    const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, u, cycle)
-                          : IsOpen(assembly_)  ? FillFromTank(tank_pa, u, cycle)
-                                               : FillFromRegulator(settings, u, cycle);
+    const double over_s = assembly_.pump()    ? FillFromReservoir(settings, rising_m3, u, cycle)
+                          : IsOpen(assembly_) ? FillFromTank(tank_pa, u, cycle)
+                                              : FillFromRegulator(settings, u, cycle);
     if (units_.size() > 1 && !(over_s <= UntilNext(problem_, units_, units_[u])))
       return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   }

@@ -40,7 +40,7 @@ class KnownCycles {
   double PumpHeld(double high_pa) {
     const auto [entry, fresh] = held_.try_emplace(high_pa);
     if (!fresh) return entry->second;
-    const model::CompressorCurve& curve = assembly_.compressor->curve;
+    const model::CompressorCurve& curve = assembly_.pump()->curve;
     return entry->second = (Bursts(problem_) > 0 ? EnergyPerAirHeld : PowerHeld)(
                curve, problem_.ambient.pressure_pa, high_pa);
   }

@@ -35,10 +35,10 @@ double RestsAt(const Problem& problem, const Assembly& assembly, double stop_pa,
 // The most that an actuator can hold when its valve stands open for its window.
 double OpenPressure(const Problem& problem, const Settings& settings, const Assembly& assembly) {
   const double source_pa = settings.source_pressure_pa;
-  if (!assembly.compressor) return source_pa;
+  if (!assembly.pump()) return source_pa;
   const double falling_m3 = settings.reservoir_volume_m3.value_or(0.0);
   const double lowest_pa = RestsAt(problem, assembly, source_pa, falling_m3, 0.0);
-  const double delivery = model::FreeAirDelivery(assembly.compressor->curve, lowest_pa);
+  const double delivery = model::FreeAirDelivery(assembly.pump()->curve, lowest_pa);
   const double pumped_m3 = assembly.compressors * delivery * FillWindow(problem, 0);
   return RestsAt(problem, assembly, source_pa, falling_m3 + assembly.ReservoirSpread(),
                  pumped_m3 / model::StandardVolume(1.0, problem.ambient.temperature_k));
@@ -65,8 +65,8 @@ void FillOpenOnes(const Problem& problem, const Settings& settings, const Assemb
                                      problem.ambient.temperature_k);
     cycle.filled_pa[g] = std::max(cycle.filled_pa[g], open_pa);
   }
-  if (!assembly.compressor) return;
-  const model::CompressorCurve& curve = assembly.compressor->curve;
+  if (!assembly.pump()) return;
+  const model::CompressorCurve& curve = assembly.pump()->curve;
   cycle.pump_air_m3 += more_m3;
   cycle.pump_on_s +=
       more_m3 / (assembly.compressors * model::FreeAirDelivery(curve, settings.source_pressure_pa));

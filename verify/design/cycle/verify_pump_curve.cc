@@ -60,7 +60,7 @@ double LeastPumpEnergy(const Problem& problem, const Assembly& assembly, double 
   const bool alone = UnitsOf(problem).size() == 1;
   if (!alone && !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
     return 0.0;
-  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const model::CompressorCurve& curve = assembly.pump()->curve;
   const double beyond_m3 =
       alone ? low.pump_air_m3 - low.air_m3 : (1.0 - volume_ratio) * low.pump_air_m3;
   if (!(beyond_m3 > 0.0)) return held * low.pump_j;
@@ -82,7 +82,7 @@ double FillSecondsMax(const Problem& problem, const Assembly& assembly, int g) {
 
 double NodePressure(const Assembly& assembly, const model::Series& fill, double mirror_pa,
                     int count, double chamber_pa) {
-  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const model::CompressorCurve& curve = assembly.pump()->curve;
   const auto more_than_taken = [&](double p) {
     return assembly.compressors * DeliveryUpToTheEnd(curve, p) -
            count * model::FlowBetween(fill, mirror_pa, p, chamber_pa);
@@ -121,7 +121,7 @@ double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>&
 DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& assembly,
                                     const Unit& unit, const model::Series& fill) {
   const model::Chamber chamber = ChamberOf(problem.groups[unit.group], assembly.lines[unit.group]);
-  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const model::CompressorCurve& curve = assembly.pump()->curve;
   const double ambient_pa = problem.ambient.pressure_pa;
   const double operating_pa = chamber.operating_pressure_pa;
   const double target_pa = ambient_pa + problem.rise_fraction * (operating_pa - ambient_pa);
@@ -170,7 +170,7 @@ double DirectFills::Add(const Problem& problem, const Assembly& assembly, const 
   const LineParts& line = assembly.lines[g];
   const auto [entry, fresh] =
       known_.try_emplace({g, unit.count / unit.feeds, line.tube, line.fitting, line.valve,
-                          assembly.compressor, assembly.compressors});
+                          assembly.pump(), assembly.compressors});
   if (fresh) entry->second = Make(problem, assembly, unit, fill);
   const Fill& found = entry->second;
   cycle.rise_s[g] = std::max(cycle.rise_s[g], found.rise_s);

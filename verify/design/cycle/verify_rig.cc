@@ -76,13 +76,13 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
   rig.ambient = problem.ambient;
   if (assembly.co2) rig.gas = model::Gas::kCo2;
   if (assembly.direct()) {
-    rig.source = model::PumpSource{assembly.compressor->curve, assembly.compressors};
-  } else if (assembly.compressor) {
+    rig.source = model::PumpSource{assembly.pump()->curve, assembly.compressors};
+  } else if (assembly.pump()) {
     model::ReservoirSource source;
     source.volume_m3 = settings.reservoir_volume_m3.value_or(0.0);
     source.volume_rising_m3 = rising_m3;
     source.initial_pressure_pa = state.source_pa;
-    source.compressor = assembly.compressor->curve;
+    source.compressor = assembly.pump()->curve;
     source.compressor_count = assembly.compressors;
     source.stop_pressure_pa = settings.source_pressure_pa;
     rig.source = source;

@@ -92,6 +92,15 @@ export const axes: Axis[] = [
     'pressure',
   ),
   plain(
+    'pump_stop',
+    'pump stops',
+    '',
+    'Pressure of the tank below which the pump runs',
+    settings((s) => s.pump_stop_kpa_gauge ?? null),
+    'low',
+    'pressure',
+  ),
+  plain(
     'sustained',
     'sustained',
     'Hz',
@@ -129,6 +138,7 @@ const supplyWords = {
   co2: 'CO₂',
   mains: 'wall',
   tank: 'tank',
+  tank_and_pump: 'tank with a pump',
   direct_pump: 'pump without a reservoir',
   vacuum_pump: 'vacuum pump',
   direct_vacuum_pump: 'vacuum pump without a reservoir',

@@ -3,7 +3,7 @@ import { loadPart, numberOf } from './catalogue';
 import { type Change, changed, groupPressures } from './evaluation';
 import { feedOf, feedsOf } from './pumps';
 import type { Design, Effect, Group, Part, Requirements, Response } from './types';
-import { isDirect } from './vacuum';
+import { hasTank, isDirect } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -47,7 +47,7 @@ function sourceOf(
   own: number | null,
 ) {
   const pump = rowOf(design, 'compressor') ?? rowOf(design, 'vacuum_pump');
-  if (pump) {
+  if (pump && !hasTank(design.configuration)) {
     // Pumps take in volume: the table is of 100 kPa, and holds at the same ratios of pressure.
     const share = (requirements.ambient?.pressure_kpa_abs ?? 100) / 100;
     const pumps = {

@@ -30,6 +30,7 @@ export type Configuration =
   | 'compressor'
   | 'mains'
   | 'tank'
+  | 'tank_and_pump'
   | 'direct_pump'
   | 'vacuum_pump'
   | 'direct_vacuum_pump';
@@ -137,6 +138,7 @@ export interface Design {
     compressor_duty: number | null;
     reservoir_volume_ml: number | null;
     tank_fill_kpa_gauge?: number | null;
+    pump_stop_kpa_gauge?: number; // of a pump that goes on filling the tank
     group_pressure_kpa_gauge?: number[]; // where each group has a regulator of its own
     power?: { kind: PowerKind; voltage_v: number | null } | null;
   };

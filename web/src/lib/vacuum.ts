@@ -10,6 +10,9 @@ export const isVacuum = (configuration: Configuration): boolean =>
 // Pumps without a reservoir have no setting.
 export const isDirect = (configuration: Configuration): boolean =>
   configuration === 'direct_pump' || configuration === 'direct_vacuum_pump';
+// A reservoir that is filled beforehand.
+export const hasTank = (configuration: Configuration): boolean =>
+  configuration === 'tank' || configuration === 'tank_and_pump';
 export const hasReservoir = (configuration: Configuration): boolean =>
   configuration === 'compressor' || configuration === 'vacuum_pump';
 

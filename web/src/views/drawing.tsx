@@ -11,6 +11,7 @@ const names: Record<Configuration, string> = {
   co2: 'CO₂',
   mains: 'wall',
   tank: 'tank',
+  tank_and_pump: 'tank, pump',
   direct_pump: 'pump',
   vacuum_pump: 'vacuum',
   direct_vacuum_pump: 'vacuum',
@@ -46,6 +47,13 @@ export function SourceSign({ kind }: { kind: Configuration }) {
       );
     case 'tank':
       return <Reservoir />;
+    case 'tank_and_pump':
+      return (
+        <>
+          <Reservoir />
+          <path d="M-13 0 L11 -7 M-13 0 L11 7" />
+        </>
+      );
     case 'mains':
       return (
         <>

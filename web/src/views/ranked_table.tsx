@@ -16,6 +16,7 @@ import { change, digitsApart, isSame, percent } from '../lib/format';
 import { signature } from '../lib/list_changes';
 import { link, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
+import { hasTank } from '../lib/vacuum';
 import { Chip } from '../ui/controls';
 import { type Head, LongTable, number, SortHead } from '../ui/table';
 import { identity } from './kinds';
@@ -59,7 +60,7 @@ export function partsInShort(design: Design, base: Design | undefined): string {
       !known.has(key(p)) &&
       (design !== base ||
         ['compressor', 'vacuum_pump', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family) ||
-        (p.family === 'reservoir' && design.configuration === 'tank')),
+        (p.family === 'reservoir' && hasTank(design.configuration))),
   );
   return rows
     .map((p) =>

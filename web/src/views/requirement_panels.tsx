@@ -1,7 +1,7 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
 import { edit, errorAt, numbers, requirements } from '../lib/requirements';
 import type { Configuration, PowerKind, PumpFeed, Regulation } from '../lib/types';
-import { areEvacuated, vacuumSources } from '../lib/vacuum';
+import { areEvacuated, hasTank, vacuumSources } from '../lib/vacuum';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 
@@ -11,6 +11,7 @@ const configurations: { value: Configuration; label: string }[] = [
   { value: 'co2', label: 'Liquid CO₂' },
   { value: 'mains', label: 'Wall supply' },
   { value: 'tank', label: 'Tank filled beforehand' },
+  { value: 'tank_and_pump', label: 'Tank filled beforehand, with a pump' },
   { value: 'direct_pump', label: 'Pump without a reservoir' },
 ];
 
@@ -27,7 +28,7 @@ export function Supply() {
         ['supply', 'mains'],
         on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
       );
-    if (name === 'tank' && !on) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
+    if (!next.some(hasTank)) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
     if (name === 'direct_pump' && !on) edit(['supply', 'pumps'], undefined);
   };
   const wrong =
@@ -210,7 +211,7 @@ export function Supply() {
             range={[1, 50000]}
           />
         )}
-        {chosen.includes('tank') && (
+        {chosen.some(hasTank) && (
           <RequirementField
             label="Tank filled to, at most"
             kind="pressure"

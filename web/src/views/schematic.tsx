@@ -5,7 +5,7 @@ import type { Design, PartRow, Requirements } from '../lib/types';
 import { shown } from '../lib/format';
 import { unitOf } from '../lib/units';
 import { feedOf } from '../lib/pumps';
-import { hasReservoir, isDirect } from '../lib/vacuum';
+import { hasReservoir, hasTank, isDirect } from '../lib/vacuum';
 import { Actuator, place, Regulator, Reservoir, SourceSign, Valve } from './drawing';
 
 const lineChars = 22;
@@ -68,7 +68,7 @@ export function Schematic({
   const battery = rowOf(design, 'battery');
   const joints = design.parts.filter(({ family }) => family === 'manifold');
   const setting = `${shown('pressure', settings.source_pressure_kpa_gauge)} ${unitOf('pressure')}`;
-  const isTank = configuration === 'tank';
+  const isTank = hasTank(configuration);
   return (
     <svg
       class="drawing schematic"
@@ -94,7 +94,7 @@ export function Schematic({
         y={(ownPumps ? yOf(groups.length - 1) : middle) + 30}
         texts={
           isTank
-            ? [partText(reservoir)]
+            ? [partText(reservoir), source && `filled by ${partText(source)}`]
             : [source ? partText(source) : 'wall supply', ownPumps ? each : undefined]
         }
       />

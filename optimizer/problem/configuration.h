@@ -1,0 +1,54 @@
+// Where the air comes from.
+#ifndef PLENUM_OPTIMIZER_PROBLEM_CONFIGURATION_H_
+#define PLENUM_OPTIMIZER_PROBLEM_CONFIGURATION_H_
+
+namespace plenum::optimizer {
+
+// kDirectPump: pumps without a reservoir that fill one group after another (candidate.h).
+// kVacuumPump, kDirectVacuumPump: the same two of evacuated actuators (Evacuated() below).
+// kTankAndPump: a tank filled beforehand that a pump goes on filling (evaluate/refill.h).
+enum class Configuration {
+  kCylinder,
+  kCo2,
+  kCompressor,
+  kMains,
+  kTank,
+  kDirectPump,
+  kVacuumPump,
+  kDirectVacuumPump,
+  kTankAndPump
+};
+inline constexpr int kConfigurations = 9;
+// Of actuators under pressure, in the order in which people are told of them.
+inline constexpr Configuration kPressureConfigurations[] = {
+    Configuration::kCylinder,  Configuration::kCo2,  Configuration::kCompressor,
+    Configuration::kMains,     Configuration::kTank, Configuration::kTankAndPump,
+    Configuration::kDirectPump};
+// As requests name them: "cylinder", "co2", …, "tank_and_pump".
+const char* Name(Configuration configuration);
+// Whether pumps keep a reservoir at its pressure, feed the lines themselves, or do either; and
+// whether there is a tank filled beforehand, and any pump.
+inline bool KeepsReservoir(Configuration configuration) {
+  return configuration == Configuration::kCompressor || configuration == Configuration::kVacuumPump;
+}
+inline bool IsDirect(Configuration configuration) {
+  return configuration == Configuration::kDirectPump ||
+         configuration == Configuration::kDirectVacuumPump;
+}
+inline bool IsPumped(Configuration configuration) {
+  return KeepsReservoir(configuration) || IsDirect(configuration);
+}
+inline bool HasTank(Configuration configuration) {
+  return configuration == Configuration::kTank || configuration == Configuration::kTankAndPump;
+}
+inline bool HasPump(Configuration configuration) {
+  return IsPumped(configuration) || configuration == Configuration::kTankAndPump;
+}
+inline bool IsVacuum(Configuration configuration) {
+  return configuration == Configuration::kVacuumPump ||
+         configuration == Configuration::kDirectVacuumPump;
+}
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_PROBLEM_CONFIGURATION_H_
