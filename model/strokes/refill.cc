@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/numeric/odeint.hpp>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-10;
+constexpr double kRounding = 1e-6;
 constexpr int kHalvings = 50;
 
 // Pressure; time that pumps have run, or air that they delivered; energy of all pumps.
@@ -58,7 +60,7 @@ double SecondsBetween(const RefillInput& input, double high_pa, double low_pa) {
 }
 
 double LastsSeconds(const RefillInput& input, double stop_pa) {
-  if (stop_pa <= input.kept_pa) return FallSeconds(input, input.kept_pa);
+  if (stop_pa < input.kept_pa) return FallSeconds(input, input.kept_pa);
   if (Delivered(input, input.kept_pa) >= input.draw_m3_per_s) return kEndless;
   return FallSeconds(input, stop_pa) + SecondsBetween(input, stop_pa, input.kept_pa);
 }
@@ -112,25 +114,30 @@ void RunTo(const RefillInput& input, double air_m3, double highest_pa, Refill& r
   refill.energy_j = state[2];
 }
 
+// The stop pressure that is given, else the highest. One that is what is kept but for rounding is
+// it.
+double MostPa(const RefillInput& input) {
+  const double highest_pa = std::min(input.fill_pa, HighestPressure(*input.compressor));
+  if (!(input.stop_pa > 0.0)) return highest_pa;
+  const bool is_kept = std::abs(input.stop_pa / input.kept_pa - 1.0) < kRounding;
+  return std::min(is_kept ? input.kept_pa : input.stop_pa, highest_pa);
+}
+
 }  // namespace
 
-double LastingSeconds(const RefillInput& input) {
-  const double highest_pa = std::min(input.fill_pa, HighestPressure(*input.compressor));
-  return LastsSeconds(input,
-                      input.stop_pa > 0.0 ? std::min(input.stop_pa, highest_pa) : highest_pa);
-}
+double LastingSeconds(const RefillInput& input) { return LastsSeconds(input, MostPa(input)); }
 
 Refill RefillTank(const RefillInput& input) {
   const double highest_pa = std::min(input.fill_pa, HighestPressure(*input.compressor));
   const bool given = input.stop_pa > 0.0;
-  const double most_pa = given ? std::min(input.stop_pa, highest_pa) : highest_pa;
+  const double most_pa = MostPa(input);
   Refill refill{.stop_pa = input.kept_pa, .lasts_s = LastingSeconds(input)};
   if (!(input.kept_pa <= input.fill_pa)) return refill;
   const double air_m3 = input.draw_m3_per_s * (input.seconds - FallSeconds(input, input.kept_pa));
   if (given || refill.lasts_s < input.seconds) {
     refill.stop_pa = given ? input.stop_pa : std::max(most_pa, input.kept_pa);
     const double seconds = std::min(input.seconds, refill.lasts_s) - FallSeconds(input, most_pa);
-    if (seconds > 0.0 && most_pa > input.kept_pa) RunFrom(input, most_pa, seconds, refill);
+    if (seconds > 0.0 && most_pa >= input.kept_pa) RunFrom(input, most_pa, seconds, refill);
   } else if (air_m3 > 0.0) {
     if (Delivered(input, input.kept_pa) >= input.draw_m3_per_s)
       Hold(input, input.kept_pa, air_m3, refill);

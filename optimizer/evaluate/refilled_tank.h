@@ -8,9 +8,9 @@
 //
 // The stop pressure is the lowest that does, unless it is given. A fuller tank asks less of pumps
 // and battery and weighs more. Where it is not given, the fill is the least with which pumps and
-// battery do, or more as long as a weighted energy is worth the air: what the pumps save by the
-// last bit of air, their energy per air at the stop pressure, falls with the fill, so that the sum
-// of both has one least.
+// battery do, a ten-thousandth above what it must keep, or more as long as a weighted energy is
+// worth the air: what the pumps save by the last bit of air, their energy per air at the stop
+// pressure, falls with the fill, so that the sum of both has one least.
 #ifndef PLENUM_OPTIMIZER_EVALUATE_REFILLED_TANK_H_
 #define PLENUM_OPTIMIZER_EVALUATE_REFILLED_TANK_H_
 

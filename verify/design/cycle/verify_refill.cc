@@ -154,7 +154,8 @@ double FillFor(const Problem& problem, const Assembly& a, double source_pa, cons
     return MissionMargin(problem, a, cycle, curve.At(fill_pa)) < -slack;
   };
   if (misses(most_pa)) return most_pa;
-  double low_pa = LastTrue(std::min(InletPa(problem, a, source_pa), most_pa), most_pa, misses);
+  double low_pa = std::min(curve.LeastFill(), most_pa);
+  if (misses(low_pa)) low_pa = LastTrue(low_pa, most_pa, misses);
   if (problem.objective.energy_wh == 0.0) return low_pa;
   // Weighted, both are one valley.
   double high_pa = most_pa;

@@ -23,6 +23,8 @@ class RefillCurve {
  public:
   RefillCurve(const Problem& problem, const Assembly& assembly, double source_pa, double air_m3);
   Refilled At(double fill_pa) const;
+  // Least fill: above what is kept, by so much that rounding decides nothing.
+  double LeastFill() const { return 1.0001 * kept_pa_; }
 
  private:
   // Since pressures were falling, with pumps that run, from a pressure to the one that is kept.
