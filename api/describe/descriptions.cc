@@ -129,7 +129,8 @@ std::vector<Json> AllMeasurements() {
              "sensor": {} },
     "runs": [ { "initial": {}, "channels": { "source_pressure_kpa_gauge": [],
                 "inlet_pressure_kpa_gauge": [], "temperature_k": [], "volume_ml": [],
-                "flow_l_per_min_anr": [] }, "valve": [ { "uncertainty_s": 0 } ], "cycle": {} } ] })"),
+                "flow_l_per_min_anr": [], "valve_opening": [], "source_setpoint_kpa_gauge": [] },
+                "valve": [ { "uncertainty_s": 0 } ], "cycle": {} } ] })"),
           Document(R"({
     "schema": "measurement/1",
     "rig": { "actuator": {}, "line": { "elements": [ { "measure": [], "exhaust": {} },

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "api/json/remarks.h"
 #include "api/json/schema_recorder.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
@@ -115,7 +116,44 @@ void ReadChannels(Reader& owner, Run& run) {
   read("temperature_k", {50, 2000}, std::identity(), run.channels.temperature_k);
   read("volume_ml", Above(0, 1e9), M3FromMl, run.channels.volume_m3);
   read("flow_l_per_min_anr", {-1e6, 1e6}, M3PerSFromLPerMin, run.channels.flow_m3_per_s);
+  read("valve_opening", {0, 1}, std::identity(), run.channels.valve_opening);
+  read("source_setpoint_kpa_gauge", {0, kGaugeMaxKpa}, gauge, run.channels.source_setpoint_pa);
   channels->Finish();
+}
+
+double Largest(const std::vector<double>& series) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double value : series)
+    if (value > largest) largest = value;
+  return largest;
+}
+
+// How the volume goes: with the pressure, or as its channel says.
+void ReadVolume(Reader& owner, Run& run) {
+  run.blocked = owner.Bool("blocked", false);
+  run.volume_imposed = owner.Choice("volume", {"free", "imposed"}, "free") == "imposed";
+  if (!run.volume_imposed) return;
+  if (run.blocked) owner.Fail("blocked", "must be left out where volume is imposed");
+  run.blocked = true;
+  for (const MeasuredPlace& place : run.measured.places)
+    if (place.of == MeasuredPlace::Of::kVolume)
+      owner.Fail("volume", "must be free where the rig measures internal_volume");
+}
+
+// What drives the run must be recorded, and have something to drive.
+void CheckDriven(Reader& owner, Run& run) {
+  if (run.volume_imposed && run.channels.volume_m3.empty())
+    owner.Fail("channels", "volume_ml is required where volume is imposed");
+  if (run.channels.source_setpoint_pa.empty()) return;
+  if (run.supply == Supply::kRegulated) {
+    if (!calibration::Evacuates(run))
+      run.source_pressure_pa = Largest(run.channels.source_setpoint_pa);
+    return;
+  }
+  run.channels.source_setpoint_pa.clear();
+  if (RemarkRecorder::Current() != nullptr)
+    RemarkRecorder::Current()->Warn(owner.Pointer("channels") + "/source_setpoint_kpa_gauge",
+                                    "is not used: it drives a source of supply.kind regulated");
 }
 
 void ReadInitial(Reader& owner, Run& run) {
@@ -142,13 +180,16 @@ void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
   if (inflates && run.supply == Supply::kNone)
     owner.Fail("valve", "inflates, but the rig's supply is none");
   if (run.supply == Supply::kRegulated && inflates && !has_source_pressure)
-    owner.Fail("source_pressure_kpa_gauge", "is required with a regulated supply, a number");
+    owner.Fail("source_pressure_kpa_gauge",
+               "is required with a regulated supply, a number, or its setpoint as the channel "
+               "source_setpoint_kpa_gauge");
   const calibration::Channels& channels = run.channels;
   if (calibration::Evacuates(run) &&
-      !(channels.source_pressure_pa.empty() && channels.flow_m3_per_s.empty()))
+      !(channels.source_pressure_pa.empty() && channels.flow_m3_per_s.empty() &&
+        channels.source_setpoint_pa.empty()))
     owner.Fail("channels",
-               "must not hold source_pressure_kpa_gauge or flow_l_per_min_anr where "
-               "source_pressure_kpa_gauge of the run is below 0");
+               "must not hold source_pressure_kpa_gauge, source_setpoint_kpa_gauge or "
+               "flow_l_per_min_anr where source_pressure_kpa_gauge of the run is below 0");
   if (run.supply == Supply::kMeasured && run.channels.source_pressure_pa.empty())
     owner.Fail("channels", "source_pressure_kpa_gauge is required with supply.kind measured");
 }
@@ -170,6 +211,14 @@ void TakeMeasured(const std::vector<MeasuredInRig>& rig, std::vector<MeasuredNum
     }
     if (one.number.kind == MeasuredNumber::Kind::kDelivery) run.measured.delivery.push_back(number);
   }
+}
+
+// By how much an imposed volume alone can raise a pressure.
+double SqueezeOf(const Run& run) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double m3 : run.channels.volume_m3)
+    if (m3 < least) least = m3;
+  return Largest(run.channels.volume_m3) / least;
 }
 
 // Readings that can tell something.
@@ -197,6 +246,7 @@ void CheckReadings(Reader& owner, const Run& run) {
     if (!std::isnan(pa)) cause_pa = std::max(cause_pa, pa);
   if (run.supply == Supply::kCompressor)
     cause_pa = std::max(cause_pa, run.compressor.pressure_max_pa);
+  if (run.volume_imposed && !run.channels.volume_m3.empty()) cause_pa *= SqueezeOf(run);
   const double cause_kpa = KpaGaugeFromPa(cause_pa, run.ambient);
   if (run.initial_pressure_pa && high_kpa > kAbsurd * cause_kpa)
     owner.Fail("pressure_kpa_gauge", "reaches " + Decimal(Rounded(high_kpa)) +
@@ -225,7 +275,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.reservoir_volume_m3 = rig.reservoir_volume_m3;
   run.sensor = rig.sensor;
   TakeMeasured(rig.measured, measured, run);
-  run.blocked = reader.Bool("blocked", false);
+  ReadVolume(reader, run);
   const Range pressures = PressuresAbove0(run.ambient);
   const auto source_kpa =
       reader.OptionalNumber("source_pressure_kpa_gauge",
@@ -247,7 +297,8 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
   FindInstants(reader, run);
   ReadChannels(reader, run);
-  CheckAgreement(reader, run, has_source);
+  CheckDriven(reader, run);
+  CheckAgreement(reader, run, has_source || calibration::FollowsSetpoint(run));
   CheckReadings(reader, run);
   reader.Finish();
   return run;

@@ -225,14 +225,22 @@ std::optional<BottleTest> PumpTest(const catalog::Part& part, const TestSensor& 
   return test;
 }
 
-}  // namespace
-
-std::optional<BottleTest> MakeBottleTest(const catalog::Part& part, const TestSensor& sensor) {
+std::optional<BottleTest> TestOfFamily(const catalog::Part& part, const TestSensor& sensor) {
   if (part.family == "valve") return ValveTest(part, sensor);
   if (part.family == "fitting") return FittingTest(part, sensor);
   if (part.family == "regulator") return RegulatorTest(part, sensor);
   if (part.family == "compressor") return PumpTest(part, sensor);
   return {};
+}
+
+}  // namespace
+
+// The template states what the sensor's data sheet says, so that the diagnosis knows its steps.
+std::optional<BottleTest> MakeBottleTest(const catalog::Part& part, const TestSensor& sensor) {
+  std::optional<BottleTest> test = TestOfFamily(part, sensor);
+  if (test && sensor.resolution_kpa > 0.0)
+    test->measurement["rig"]["sensor"] = {{"resolution_kpa", Number(sensor.resolution_kpa)}};
+  return test;
 }
 
 }  // namespace plenum::api

@@ -230,6 +230,8 @@ std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std:
   const double spacing_s = bench.spacing_s / rate;
   const bool gives =
       bench.pattern.chamber.expansion_ratio > 1.0 || !bench.pattern.chamber.volume_curve.empty();
+  // An imposed volume that is held is a blocked one, and a free one there is not.
+  const bool imposed = std::exchange(bench.pattern.volume_imposed, false);
   std::set<double> sources_pa;
   if (!bench.sources_pa.empty()) {
     const double low = *bench.sources_pa.begin(), high = *bench.sources_pa.rbegin();
@@ -238,7 +240,7 @@ std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std:
     if (low == high) sources_pa.insert(ambient_pa + kLowerSource * (low - ambient_pa));
   }
   for (const bool blocked : {false, true}) {
-    if (blocked && !gives) continue;
+    if (blocked ? !gives && !imposed : imposed) continue;
     Run run = bench.pattern;
     run.blocked = blocked;
     if (run.supply == Supply::kNone)

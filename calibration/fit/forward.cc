@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "calibration/fit/recorded/gauge.h"
-#include "calibration/fit/source_record.h"
-#include "calibration/noise/noise.h"
 #include "calibration/values/crossing.h"
 #include "calibration/values/measured_place.h"
 #include "model/effects/learned/learned.h"
@@ -226,7 +224,9 @@ Reading ReadingOf(model::Response response, double shift_pa) {
                       .inlet_pressure_pa = std::move(group.inlet_pressure_pa),
                       .temperature_k = std::move(group.temperature_k),
                       .volume_m3 = std::move(group.volume_m3),
-                      .flow_m3_per_s = std::move(group.flow_m3_per_s)};
+                      .flow_m3_per_s = std::move(group.flow_m3_per_s),
+                      .valve_opening = {},
+                      .source_setpoint_pa = {}};
   return reading;
 }
 
@@ -238,16 +238,8 @@ void FillTemperature(const Run& run, Reading& reading) {
 
 }  // namespace
 
-ForwardModel::ForwardModel(const Dataset& dataset)
-    : dataset_(&dataset), measured_(dataset.runs.size()) {
-  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
-    const Run& run = dataset.runs[i];
-    if (run.supply != Supply::kMeasured) continue;
-    const std::vector<double>& record = run.channels.source_pressure_pa;
-    measured_[i] =
-        CondenseRecord(run.t_s, record, EstimateNoise({run.t_s, record, {}, {}}).sigma_pa);
-    for (double& time_s : measured_[i].time_s) time_s -= StartOf(run);
-  }
+ForwardModel::ForwardModel(const Dataset& dataset) : dataset_(&dataset) {
+  for (const Run& run : dataset.runs) driving_.push_back(DrivingRecordsOf(run));
 }
 
 ModelState ForwardModel::Declared() const {
@@ -272,14 +264,11 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
   const double shift_pa = AmbientShift(run, state);
   const double pressure_pa = SourcePressure(run, factor, shift_pa);
   if (Evacuates(run)) return model::RegulatedSource{.pressure_pa = ExhaustPressure(run, shift_pa)};
+  if (const model::TimeCourse& told = driving_[index].source_pa; !told.empty())
+    return model::DrivenSource{told.time_s, told.value, factor};
   switch (run.supply) {
     case Supply::kRegulated:
       return model::RegulatedSource{.pressure_pa = pressure_pa};
-    case Supply::kMeasured: {
-      model::DrivenSource source = measured_[index];
-      source.factor = factor;
-      return source;
-    }
     case Supply::kCompressor:
       return model::ReservoirSource{
           .volume_m3 = run.reservoir_volume_m3 * Factor(state, Declared::kReservoirVolume),
@@ -287,6 +276,7 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
           .compressor = run.compressor};
     case Supply::kFlow:
       return model::PumpSource{.compressor = run.compressor};
+    case Supply::kMeasured:
     case Supply::kNone:
       break;
   }
@@ -336,6 +326,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   group.initial_pressure_pa = state.initial_pressure_pa[index] + shift_pa;
   group.initial_temperature_k = state.initial_temperature_k[index];
   group.blocked = run.blocked;
+  group.told = {driving_[index].opening, driving_[index].volume_m3};
   group.effects = state.effects;
   for (model::Effect& effect : group.effects) {
     if (double* phase_rad = NumberNamed(effect, model::kPhaseSpec.name))

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fit/recorded/driving.h"
 #include "calibration/values/dataset.h"
 #include "calibration/values/model_state.h"
 #include "model/effects/effect.h"
@@ -48,8 +49,8 @@ struct PredictOptions {
   bool stiff = false;           // known to be: the implicit method from the start
 };
 
-// Holds what the runs of a data set need again and again: measured source pressures condensed to a
-// few points. The data set must outlive it. Calls may run side by side.
+// Holds what the runs of a data set need again and again: the records that drive their models,
+// condensed to few points. The data set must outlive it. Calls may run side by side.
 class ForwardModel {
  public:
   explicit ForwardModel(const Dataset& dataset);
@@ -70,7 +71,7 @@ class ForwardModel {
   model::Source SourceOf(std::size_t run, const ModelState& state) const;
 
   const Dataset* dataset_;
-  std::vector<model::DrivenSource> measured_;  // by run; without points where not measured
+  std::vector<DrivingRecords> driving_;  // by run
 };
 
 // Adds the derivatives to numbers that move a table, which the simulator does not give: a pump's

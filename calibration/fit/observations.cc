@@ -179,8 +179,9 @@ std::vector<ObservedRun> Observe(const Dataset& dataset) {
     for (const auto channel : kSupporting) {
       const bool drives = channel == &Channels::source_pressure_pa &&
                           (run.supply == Supply::kMeasured || run.supply == Supply::kNone);
+      const bool imposed = channel == &Channels::volume_m3 && run.volume_imposed;
       const std::vector<double>& measured = run.channels.*channel;
-      if (drives || measured.empty()) continue;
+      if (drives || imposed || measured.empty()) continue;
       const Noise noise = NoiseOfChannel(run, measured);
       if (!(noise.sigma_pa > 0.0)) continue;
       ObservedSignal signal = SignalOf(run, channel, noise);

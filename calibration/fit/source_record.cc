@@ -12,19 +12,19 @@ namespace {
 constexpr double kNoiseSumMax = 1.5;
 
 struct Sample {
-  double t_s, pressure_pa, weight;
+  double t_s, value, weight;
 };
 
-std::vector<Sample> Present(std::span<const double> t_s, std::span<const double> pressure_pa) {
+std::vector<Sample> Present(std::span<const double> t_s, std::span<const double> value) {
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < t_s.size(); ++i) {
-    if (std::isnan(pressure_pa[i])) continue;
+    if (std::isnan(value[i])) continue;
     if (!samples.empty() && samples.back().t_s == t_s[i]) {
       Sample& same = samples.back();
       same.weight += 1.0;
-      same.pressure_pa += (pressure_pa[i] - same.pressure_pa) / same.weight;
+      same.value += (value[i] - same.value) / same.weight;
     } else {
-      samples.push_back({t_s[i], pressure_pa[i], 1.0});
+      samples.push_back({t_s[i], value[i], 1.0});
     }
   }
   return samples;
@@ -40,15 +40,15 @@ std::vector<double> NearestValues(const std::vector<Sample>& samples,
   for (const Sample& sample : samples) {
     while (piece + 2 < n && sample.t_s > knots[piece + 1]) ++piece;
     if (n == 1) {
-      diagonal[0] += sample.weight, right[0] += sample.weight * sample.pressure_pa;
+      diagonal[0] += sample.weight, right[0] += sample.weight * sample.value;
       continue;
     }
     const double share = (sample.t_s - knots[piece]) / (knots[piece + 1] - knots[piece]);
     diagonal[piece] += sample.weight * (1.0 - share) * (1.0 - share);
     diagonal[piece + 1] += sample.weight * share * share;
     above[piece] += sample.weight * share * (1.0 - share);
-    right[piece] += sample.weight * (1.0 - share) * sample.pressure_pa;
-    right[piece + 1] += sample.weight * share * sample.pressure_pa;
+    right[piece] += sample.weight * (1.0 - share) * sample.value;
+    right[piece + 1] += sample.weight * share * sample.value;
   }
   for (std::size_t i = 1; i < n; ++i) {
     const double factor = above[i - 1] / diagonal[i - 1];
@@ -66,7 +66,7 @@ std::vector<double> NearestValues(const std::vector<Sample>& samples,
 // of the residuals up to it is largest.
 std::vector<double> Refinements(const std::vector<Sample>& samples,
                                 const std::vector<double>& knots, const std::vector<double>& values,
-                                double noise_pa) {
+                                double noise) {
   std::vector<double> refinements;
   auto sample = samples.begin();
   for (std::size_t piece = 0; piece + 1 < knots.size(); ++piece) {
@@ -75,29 +75,29 @@ std::vector<double> Refinements(const std::vector<Sample>& samples,
     double at_s = 0.0;
     for (; sample != samples.end() && sample->t_s <= knots[piece + 1]; ++sample) {
       const double share = (sample->t_s - knots[piece]) / width_s;
-      const double line_pa = (1.0 - share) * values[piece] + share * values[piece + 1];
-      sum += sample->weight * (sample->pressure_pa - line_pa);
+      const double line = (1.0 - share) * values[piece] + share * values[piece + 1];
+      sum += sample->weight * (sample->value - line);
       weight += sample->weight;
       const bool inside = sample->t_s > knots[piece] && sample->t_s < knots[piece + 1];
       if (inside && std::abs(sum) > largest) largest = std::abs(sum), at_s = sample->t_s;
     }
-    if (largest > kNoiseSumMax * noise_pa * std::sqrt(weight)) refinements.push_back(at_s);
+    if (largest > kNoiseSumMax * noise * std::sqrt(weight)) refinements.push_back(at_s);
   }
   return refinements;
 }
 
 }  // namespace
 
-model::DrivenSource CondenseRecord(std::span<const double> t_s, std::span<const double> pressure_pa,
-                                   double noise_pa) {
-  const std::vector<Sample> samples = Present(t_s, pressure_pa);
+model::TimeCourse CondenseRecord(std::span<const double> t_s, std::span<const double> value,
+                                 double noise) {
+  const std::vector<Sample> samples = Present(t_s, value);
   if (samples.empty()) return {};
   std::vector<double> knots = {samples.front().t_s};
   if (samples.size() > 1) knots.push_back(samples.back().t_s);
   while (true) {
     std::vector<double> values = NearestValues(samples, knots);
-    const std::vector<double> more = Refinements(samples, knots, values, noise_pa);
-    if (more.empty()) return {.time_s = std::move(knots), .pressure_pa = std::move(values)};
+    const std::vector<double> more = Refinements(samples, knots, values, noise);
+    if (more.empty()) return {.time_s = std::move(knots), .value = std::move(values)};
     const auto middle = knots.insert(knots.end(), more.begin(), more.end());
     std::inplace_merge(knots.begin(), middle, knots.end());
   }

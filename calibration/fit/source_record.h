@@ -1,4 +1,5 @@
-// The record of a sensor at the source as a driven source of few points.
+// A record that drives the model, such as that of a sensor at the source, as a course of few
+// points.
 //
 // The curve is the continuous piecewise straight line nearest to all samples (least squares), with
 // points where fewer would leave more than white noise of the given size: noise averages out, and
@@ -9,15 +10,15 @@
 
 #include <span>
 
-#include "model/simulate/driven_source.h"
+#include "model/simulate/told/time_course.h"
 
 namespace plenum::calibration {
 
 // `t_s` must not fall; samples of one instant count together and missing ones (NaN) not at all.
-// Without points if every sample is missing. `noise_pa` is one standard deviation; 0 keeps every
+// Without points if every sample is missing. `noise` is one standard deviation; 0 keeps every
 // sample that is not on a straight line.
-model::DrivenSource CondenseRecord(std::span<const double> t_s, std::span<const double> pressure_pa,
-                                   double noise_pa);
+model::TimeCourse CondenseRecord(std::span<const double> t_s, std::span<const double> value,
+                                 double noise);
 
 }  // namespace plenum::calibration
 

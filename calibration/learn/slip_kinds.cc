@@ -35,6 +35,7 @@ void SupplyAbsolute(Run& run) {
   if (run.supply == Supply::kRegulated)
     run.source_pressure_pa = std::max(run.ambient.pressure_pa, Gauge(run, run.source_pressure_pa));
   for (double& pa : run.channels.source_pressure_pa) pa = Gauge(run, pa);
+  for (double& pa : run.channels.source_setpoint_pa) pa = Gauge(run, pa);
 }
 
 void StartAbsolute(Run& run) {

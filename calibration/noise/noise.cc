@@ -365,7 +365,8 @@ Readings ReadingsOf(const Run& run) {
   Readings readings{run.t_s, run.pressure_pa, {}, {}, run.sensor};
   for (const PhaseSpan& span : PhasesOf(run)) {
     const bool closed = span.phase == Phase::kRest || span.phase == Phase::kHold;
-    (closed ? readings.quiet : readings.strokes).push_back({span.start_s, span.end_s});
+    const bool quiet = closed && !run.volume_imposed;
+    (quiet ? readings.quiet : readings.strokes).push_back({span.start_s, span.end_s});
   }
   return readings;
 }

@@ -57,13 +57,15 @@ bool Has(const Run& run, Declared number) {
       return run.supply == Supply::kCompressor;
     case Declared::kAmbientPressure:  // where no record of another gauge and no pump's curve has it
       return (run.supply == Supply::kNone || run.supply == Supply::kRegulated) &&
-             run.channels.source_pressure_pa.empty() && run.channels.inlet_pressure_pa.empty();
+             run.channels.source_pressure_pa.empty() && run.channels.inlet_pressure_pa.empty() &&
+             !FollowsSetpoint(run);
     case Declared::kSensorZero:
     case Declared::kSensorGain:
       return run.sensor.accuracy_pa > 0.0;
     case Declared::kRestVolume:
       break;
   }
+  if (run.volume_imposed) return false;
   return std::none_of(run.measured.places.begin(), run.measured.places.end(),
                       [](const MeasuredPlace& place) { return place.of == Of::kVolume; });
 }
@@ -71,6 +73,10 @@ bool Has(const Run& run, Declared number) {
 bool RecordsMore(const Channels& channels) {
   return !channels.inlet_pressure_pa.empty() || !channels.temperature_k.empty() ||
          !channels.volume_m3.empty() || !channels.flow_m3_per_s.empty();
+}
+
+bool FollowsSetpoint(const Run& run) {
+  return run.supply == Supply::kRegulated && !run.channels.source_setpoint_pa.empty();
 }
 
 double StartOf(const Run& run) {
@@ -88,9 +94,10 @@ double FirstReading(const Run& run) {
       run.valve.begin(), run.valve.end(),
       [](const model::ValveCommand& command) { return command.state != model::ValveState::kHold; });
   const double until_s = opens == run.valve.end() ? run.t_s.back() : opens->time_s;
+  const int most = run.volume_imposed ? 1 : kFirstReadings;  // it moves from the start
   double sum_pa = 0.0;
   int count = 0;
-  for (std::size_t i = 0; i < run.t_s.size() && count < kFirstReadings; ++i) {
+  for (std::size_t i = 0; i < run.t_s.size() && count < most; ++i) {
     if (count > 0 && run.t_s[i] >= until_s) break;
     if (std::isnan(run.pressure_pa[i])) continue;
     sum_pa += run.pressure_pa[i];

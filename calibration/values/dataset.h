@@ -69,6 +69,9 @@ struct Sensor {
 struct Channels {  // each empty, or as long as t_s
   std::vector<double> source_pressure_pa, inlet_pressure_pa, temperature_k, volume_m3;
   std::vector<double> flow_m3_per_s;  // ANR, into the line
+  // These drive the model and are not compared with it: how far the valve is open, 0 to 1, on the
+  // way that the commands open; what a regulator is told.
+  std::vector<double> valve_opening, source_setpoint_pa;
 };
 
 // Whether any but the source's pressure is recorded.
@@ -106,6 +109,9 @@ struct Recorded {
   // By command one standard deviation of its instant, 0: exact, kUnknown: not known, and the
   // instant that stands there is a guess. Empty: all are exact.
   std::vector<double> valve_uncertainty_s;
+  // The volume channel drives the model, whatever the pressure: the run is `blocked`, too. It is
+  // taken as exact: a factor on it and one on all conductances are the same to the pressure.
+  bool volume_imposed = false;
 };
 
 struct Run : Recorded {
@@ -133,6 +139,9 @@ struct Run : Recorded {
 // Whether the run's readings depend on that number, beside those that it measures.
 bool Has(const Run& run, Declared number);
 
+// Whether the source is a regulator whose recorded setpoint drives it.
+bool FollowsSetpoint(const Run& run);
+
 // The time at which a run begins: the first sample or the first command, whichever is earlier.
 double StartOf(const Run& run);
 
@@ -140,7 +149,7 @@ double StartOf(const Run& run);
 double InstantUncertainty(const Run& run, std::size_t command);
 
 // Mean of the readings before the valve first opens, at most ten; the first one if it is open from
-// the start. Absolute.
+// the start, or if the volume is imposed. Absolute.
 double FirstReading(const Run& run);
 
 struct Dataset {

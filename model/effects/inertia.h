@@ -29,6 +29,7 @@ class Inertia final : public EffectUnit<T> {
   }
   void AfterVolume(const GroupSetup<T>& setup, const T* x, Moment<T>& m) const override {
     m.followed_volume_m3 = m.volume_m3 - setup.dead_volume_m3;
+    if (setup.blocked) return;
     m.volume_m3 = setup.dead_volume_m3 + x[0];
     m.volume_rate_m3_per_s = x[1];
     m.volume_slope_m3_per_pa = T(0.0);

@@ -57,6 +57,7 @@ void System<T>::LookAhead(const T& t, std::span<const T> y) {
 
 template <class T>
 void System<T>::Settle(const T& t, std::span<const T> y) {
+  for (Group& group : groups_) group.told.Settle(ValueOf(t));
   if (has_modes_) {
     LookAhead(t, y);
   } else {

@@ -1,5 +1,7 @@
 #include "model/simulate/simulate_rig.h"
 
+#include <algorithm>
+
 namespace plenum::model {
 
 std::vector<ValveCommand> CycleSchedule(double frequency_hz, double inflate_fraction, int cycles,
@@ -11,6 +13,14 @@ std::vector<ValveCommand> CycleSchedule(double frequency_hz, double inflate_frac
     schedule.push_back({(start + inflate_fraction) / frequency_hz, ValveState::kDeflate});
   }
   return schedule;
+}
+
+bool MovesSmoothly(const Rig& rig, bool driven) {
+  const auto any = [&](const TimeCourse Told::*course) {
+    return std::any_of(rig.groups.begin(), rig.groups.end(),
+                       [&](const GroupRig& group) { return !(group.told.*course).empty(); });
+  };
+  return (driven || any(&Told::opening)) && !any(&Told::volume_m3);
 }
 
 }  // namespace plenum::model

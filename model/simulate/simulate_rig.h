@@ -14,7 +14,8 @@
 #include "model/physics/air.h"
 #include "model/physics/chamber.h"
 #include "model/physics/compressor.h"
-#include "model/simulate/driven_source.h"
+#include "model/simulate/told/driven_source.h"
+#include "model/simulate/told/told.h"
 
 namespace plenum::model {
 
@@ -48,6 +49,7 @@ struct GroupRig {
   // on the way out; 0: no such sensor.
   std::size_t inlet_after = 0;
   std::vector<Effect> effects;
+  Told told;
 };
 
 struct NoSource {};
@@ -95,6 +97,10 @@ struct Rig {
   Source source;
   std::vector<GroupRig> groups;
 };
+
+// Whether what moves by itself, the groups' valves or the source (`driven`), jumps nowhere, nor its
+// rate in the equations.
+bool MovesSmoothly(const Rig& rig, bool driven);
 
 // kAutomatic: Dormand–Prince, and CVODE where that turns out stiff. kDamped: Dormand–Prince, and a
 // linearly implicit method (rosenbrock.h) where fast modes take its steps; what rings too fast to

@@ -11,10 +11,9 @@ namespace {
 constexpr std::size_t kStepsBetweenQuestions = 64, kSamplesBetweenQuestions = 4096;
 // A valve counts as closed when it is this share of the tolerance away from equal pressures.
 constexpr double kSettledShare = 1e-3;
-// Above this relative tolerance a step may pass some points of a source's record, if it has many:
-// one that follows its sensor's noise has, and the error control sees the bends that matter.
+// Above this relative tolerance a step may pass some points of a record, if it has many: one that
+// follows its sensor's noise has, and the error control sees the bends that matter.
 constexpr double kRough = 1e-5;
-constexpr std::size_t kPointsAStep = 8, kPointsKept = 32;
 // Steps at the border of stability after which CVODE is the better integrator.
 constexpr std::size_t kStiffSteps = 5000;
 // Times the tolerance to the −1/3 about twice the steps of the method that damps, of order 3.
@@ -120,8 +119,8 @@ void Run<T, Stepper>::ApplySwitches() {
     // A valve that was closed at equal pressures may have something to pass again.
     system_.set_settled(i, false);
   }
-  // At a point of a source's record alone the step goes on as it was.
-  smooth_ = system_.driven() && !switched && response_.steps > 0;
+  // At a point of a record alone the step goes on as it was.
+  smooth_ = MovesSmoothly(rig_, system_.driven()) && !switched && response_.steps > 0;
 }
 
 // Switches that fall together keep their own derivatives: between the instant of one and that of
@@ -181,6 +180,7 @@ void Run<T, Stepper>::Command(std::size_t group, const ValveCommand& command) {
 template <class T, class Stepper>
 T Run<T, Stepper>::NextBoundary() const {
   T boundary_s(options_.end_s);
+  const bool rough = options_.relative_tolerance > kRough;
   const auto consider = [&](const T& time_s) {
     if (!IsDue(ValueOf(time_s), ValueOf(t_s_)) && time_s < boundary_s) boundary_s = time_s;
   };
@@ -196,17 +196,10 @@ T Run<T, Stepper>::NextBoundary() const {
     if (valve.close_at_s) consider(*valve.close_at_s);
     consider(system_.filling(i).EndTime());
     consider(system_.venting(i).EndTime());
+    consider(NextPointOf(rig_.groups[i].told, ValueOf(t_s_), system_.valve_delay_s(i), rough));
   }
-  if (const auto* driven = std::get_if<DrivenSource>(&rig_.source)) {
-    const std::vector<double>& points = driven->time_s;
-    const bool rough = options_.relative_tolerance > kRough;
-    const std::size_t apart =
-        rough ? std::clamp<std::size_t>(points.size() / kPointsKept, 1, kPointsAStep) : 1;
-    const auto next = std::upper_bound(points.begin(), points.end(), ValueOf(t_s_));
-    const auto at = static_cast<std::size_t>(next - points.begin());
-    const std::size_t end = (at + apart - 1) / apart * apart;
-    if (end < points.size()) consider(T(points[end]));
-  }
+  if (const auto* driven = std::get_if<DrivenSource>(&rig_.source))
+    consider(T(NextPointOfCourse(driven->time_s, ValueOf(t_s_), rough)));
   return boundary_s;
 }
 

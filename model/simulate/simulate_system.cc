@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "model/effects/registry.h"
+#include "model/simulate/inlet_pressure.h"
 #include "model/simulate/pressure_at.h"
 
 namespace plenum::model {
@@ -21,18 +22,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHiddenRoom = 1e3, kInletRoom = 1e2;
 
 }  // namespace
-
-template <class T>
-T Opening<T>::At(const T& time_s) const {
-  if (!(ramp_s > 0.0) || time_s >= EndTime()) return T(end);
-  const T way = (time_s - since_s) / ramp_s;
-  return end > start ? T(start + way) : T(start - way);
-}
-
-template <class T>
-T Opening<T>::EndTime() const {
-  return since_s + ramp_s * (end > start ? T(end - start) : T(start - end));
-}
 
 template <class T>
 System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bool account)
@@ -144,8 +133,10 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     if (!cracks) group.with_regulator.emplace(both, line_options_);
   }
 
-  group.fill_before_inlet = rig.inlet_after;
-  if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
+  group.valve[kFill].count = group.valve[kExhaust].count = rig.inlet_after;
+  if (!rig.exhaust.empty()) group.valve[kExhaust].first = rig.exhaust.size() - rig.inlet_after;
+  group.told = {rig.told, setup.valve_delay_s};
+  if (group.told.stretches()) group.settles = false;
   group.lines = {Line<T>(setup.fill, line_options_), Line<T>(setup.exhaust, line_options_),
                  Line<T>(setup.feed, line_options_)};
   return group;
@@ -164,7 +155,7 @@ void System<T>::LayOut() {
       group.unit_at.push_back(sizes_.size());
       room_.resize(sizes_.size(), 1.0);
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
-      const double hidden = group.fill_before_inlet > 0 ? kInletRoom : kHiddenRoom;
+      const double hidden = group.valve[kFill].count > 0 ? kInletRoom : kHiddenRoom;
       room_.resize(sizes_.size(), unit->hidden_states() ? hidden : 1.0);
     }
   }
@@ -196,7 +187,8 @@ std::vector<T> System<T>::InitialState() {
     Moment<T> m;
     m.pressure_pa = m.volume_pressure_pa = setup.initial_pressure_pa;
     m.quasi_static_volume_m3 = setup.QuasiStaticVolume(m.pressure_pa);
-    m.volume_m3 = m.quasi_static_volume_m3 + setup.dead_volume_m3;
+    m.volume_m3 = setup.dead_volume_m3 +
+                  (group.told.stretches() ? group.told.Volume(T(0.0)) : m.quasi_static_volume_m3);
     for (std::size_t u = 0; u < group.units.size(); ++u) {
       const std::size_t at = group.unit_at[u];
       group.units[u]->Start(setup, m, y.data() + at, sizes_.data() + at);
@@ -217,9 +209,9 @@ T System<T>::DeclaredSource(const T& t, std::span<const T> y) const {
   if (regulated_) return regulated_pa_;
   if (supply_.pump) return supply_.node_pa;
   if (driven_) {
-    const DrivenSource::Point at = driven_->RecordedAt(ValueOf(t), record_near_);
-    return ambient_pa_ +
-           driven_factor_ * (Chain(t, at.pressure_pa, at.slope_pa_per_s) - ambient_pa_);
+    const CoursePoint at =
+        PointOfCourse(driven_->time_s, driven_->pressure_pa, ValueOf(t), record_near_);
+    return ambient_pa_ + driven_factor_ * (Chain(t, at.value, at.slope_per_s) - ambient_pa_);
   }
   return reservoir_ ? y[source_] : T(0.0);
 }
@@ -250,8 +242,10 @@ bool System<T>::Fed(std::size_t i, double time_s) const {
 
 template <class T>
 bool System<T>::Moving(std::size_t i, double time_s) const {
-  return ValueOf(groups_[i].filling.EndTime()) > time_s ||
-         ValueOf(groups_[i].venting.EndTime()) > time_s;
+  const Group& group = groups_[i];
+  const bool open = !(group.filling.Closed(time_s) && group.venting.Closed(time_s));
+  return ValueOf(group.filling.EndTime()) > time_s || ValueOf(group.venting.EndTime()) > time_s ||
+         (open && group.told.Turning(time_s));
 }
 
 // A pump's table as far as the limit; past the limit, where only trial stages go, it runs on
@@ -291,9 +285,10 @@ T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
   return supply_.regulator ? T(behind_pa - supply_.regulator->cracking_pressure_pa()) : behind_pa;
 }
 
-// Volume law and the effects on it.
+// Volume law and the effects on it. What is told of a volume stands against effects on the law.
 template <class T>
-void System<T>::FillMoment(Group& group, const T& source_pa, std::span<const T> y) const {
+void System<T>::FillMoment(Group& group, const T& t, const T& source_pa,
+                           std::span<const T> y) const {
   const GroupSetup<T>& setup = group.setup;
   Moment<T>& m = *::new (&group.moment) Moment<T>;  // without (), which would set zeros twice
   m.pressure_pa = y[group.at] > kLowestPressurePa ? y[group.at] : T(kLowestPressurePa);
@@ -305,6 +300,10 @@ void System<T>::FillMoment(Group& group, const T& source_pa, std::span<const T> 
   }
   m.quasi_static_volume_m3 = setup.QuasiStaticVolume(m.volume_pressure_pa);
   m.volume_m3 = m.quasi_static_volume_m3 + setup.dead_volume_m3;
+  if (group.told.stretches()) {
+    m.volume_m3 = group.told.Volume(t) + setup.dead_volume_m3;
+    m.volume_rate_m3_per_s = T(group.told.volume_rate_m3_per_s());
+  }
   if (m.volume_follows) m.volume_slope_m3_per_pa = setup.QuasiStaticSlope(m.volume_pressure_pa);
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     group.units[u]->AfterVolume(setup, y.data() + group.unit_at[u], m);
@@ -323,7 +322,8 @@ bool System<T>::TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const {
     if (free < flow) flow = free;
     return true;
   }
-  if (!group.with_regulator || outlet.copies != group.count) return false;
+  const bool whole = outlet.line == &group.lines[kFill] && outlet.copies == group.count;
+  if (!group.with_regulator || !whole) return false;
   const double ratio = ValueOf(outlet.pressure_pa) / ValueOf(supply_.pressure_pa);
   if (ratio >= group.with_regulator->kinks()[1]) return false;
   const T both = group.with_regulator->Flow(supply_.pressure_pa, outlet.pressure_pa);
@@ -336,6 +336,18 @@ bool System<T>::TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const {
   return true;
 }
 
+// The way into the actuator (kFill) or out of it (kExhaust) as far as it is open.
+template <class T>
+OpenWay<T> System<T>::WayOf(Group& group, std::size_t line, const T& t) const {
+  const bool in = line == kFill;
+  const T open = (in ? group.filling : group.venting).At(t);
+  OpenWay<T> way = {&group.lines[line], group.settled ? T(0.0) : T(group.moment.line_factor * open),
+                    group.regime[line]};
+  group.told.Throttle(t, line, in ? group.setup.fill : group.setup.exhaust, group.valve[line],
+                      line_options_, way);
+  return way;
+}
+
 // Flows of all groups; fills their moments.
 template <class T>
 void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
@@ -345,36 +357,31 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   if (regulated_ && source_unit_) supply_.pressure_pa = source_pa;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    FillMoment(group, source_pa, y);
+    FillMoment(group, t, source_pa, y);
     Moment<T>& m = group.moment;
-    const T filling = group.settled ? T(0.0) : T(m.line_factor * group.filling.At(t));
-    const T venting = group.settled ? T(0.0) : T(m.line_factor * group.venting.At(t));
-    if (venting > 0.0) {
-      const Line<T>& out = group.lines[kExhaust];
-      const bool whole = IsZero(T(venting - 1.0));
+    const OpenWay<T> filling = WayOf(group, kFill, t), venting = WayOf(group, kExhaust, t);
+    if (venting.share > 0.0) {
+      const Line<T>& out = *venting.line;
       m.line_out_m3_per_s =
-          whole ? out.Flow(m.tail_pa, exhaust_pa_, group.regime[kExhaust])
-                : out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
+          IsZero(T(venting.share - 1.0))
+              ? out.Flow(m.tail_pa, exhaust_pa_, venting.regime)
+              : out.ThrottledFlow(venting.share, group.setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
       outlets_.push_back({&group.lines[kFeed], T(group.count), m.head_pa, i, group.regime[kFeed]});
-      if (filling > 0.0) {
+      if (filling.share > 0.0) {
         m.line_in_m3_per_s =
-            filling * group.lines[kFill].Flow(m.head_pa, m.tail_pa, group.regime[kFill]);
+            filling.share * filling.line->Flow(m.head_pa, m.tail_pa, filling.regime);
       }
-    } else if (filling > 0.0) {
-      outlets_.push_back(
-          {&group.lines[kFill], group.count * filling, m.tail_pa, i, group.regime[kFill]});
+    } else if (filling.share > 0.0) {
+      outlets_.push_back({filling.line, group.count * filling.share, m.tail_pa, i, filling.regime});
     }
   }
-  if (supply_.pump && std::none_of(groups_.begin(), groups_.end(), [&](const Group& group) {
-        return !group.settled && group.filling.At(t) > 0.0;
-      })) {
-    outlets_.clear();  // the pumps are off
-    supply_.node_pa = ambient_pa_;
+  if (outlets_.empty()) {
+    supply_.node_pa = ambient_pa_;  // pumps are off
+    return;
   }
-  if (outlets_.empty()) return;
   T node_pa = source_pa;
   T in_series;
   bool solved = false;
@@ -490,26 +497,6 @@ T System<T>::Reading(std::size_t i, std::span<const T> y) const {
   return ambient_pa_ + gauge_pa;
 }
 
-// Between two parts of a line that pass the same flow; all elements but the last `fixed` conduct
-// `opening` times their C.
-template <class T>
-T System<T>::PressureBehind(std::vector<LineElement<T>> elements, std::size_t count,
-                            const T& opening, std::size_t fixed, const T& upstream_pa,
-                            const T& downstream_pa) const {
-  for (std::size_t i = 0; i + fixed < elements.size(); ++i) {
-    elements[i].sonic_conductance_m3_per_s_pa *= opening;
-  }
-  const std::span<const LineElement<T>> all = elements;
-  if (count == 0) return upstream_pa;
-  if (count == elements.size()) return downstream_pa;
-  NodeSupply<T> before;
-  before.pressure_pa = upstream_pa;
-  before.regulator.emplace(all.first(count), line_options_);
-  const Line<T> behind(all.subspan(count), line_options_);
-  const NodeOutlet<T> outlet = {&behind, T(1.0), downstream_pa};
-  return NodePressure<T>(before, {&outlet, 1});
-}
-
 // While the valve is partly open the tube alone, which conducts as ever, tells what its flow does.
 template <class T>
 T System<T>::InletPressure(std::size_t i, const T& t) const {
@@ -519,18 +506,19 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
   const Moment<T>& m = group.moment;
   const std::span<const LineElement<T>> fill = setup.fill, exhaust = setup.exhaust;
   if (m.line_in_m3_per_s > 0.0) {
-    if (!(group.filling.At(t) < 1.0))
-      return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
-    const Line<T> tube(fill.subspan(group.fill_before_inlet), line_options_);
+    if (!(group.filling.At(t) < 1.0) && !group.told.turns())
+      return PressureBehind(setup.fill, group.valve[kFill].count, T(1.0), 0, m.head_pa, m.tail_pa,
+                            line_options_);
+    const Line<T> tube(fill.subspan(group.valve[kFill].count), line_options_);
     if (tube.empty()) return m.tail_pa;
     const auto into = [&](const T& inlet_pa) { return tube.Flow(inlet_pa, m.tail_pa); };
     return PressureAt<T>(into, m.line_in_m3_per_s / m.line_factor, m.tail_pa, m.head_pa);
   }
   if (m.line_out_m3_per_s > 0.0) {
-    if (!(group.venting.At(t) < 1.0))
-      return PressureBehind(setup.exhaust, group.exhaust_before_inlet, m.line_factor,
-                            setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
-    const Line<T> tube(exhaust.first(group.exhaust_before_inlet), line_options_);
+    if (!(group.venting.At(t) < 1.0) && !group.told.turns())
+      return PressureBehind(setup.exhaust, group.valve[kExhaust].first, m.line_factor,
+                            setup.exhaust_fixed, m.tail_pa, exhaust_pa_, line_options_);
+    const Line<T> tube(exhaust.first(group.valve[kExhaust].first), line_options_);
     if (tube.empty()) return m.tail_pa;
     T flow = m.line_out_m3_per_s / m.line_factor;
     if (group.heated) flow /= sqrt(ambient_k_ / m.tail_temperature_k);
@@ -571,9 +559,6 @@ T System<T>::Of(PumpAccount account, std::span<const T> y) const {
   return account_ ? y[pump_accounts_ + account] : T(0.0);
 }
 
-template struct Opening<double>;
-template struct Opening<Dual>;
-template struct Opening<WideDual>;
 template class System<double>;
 template class System<Dual>;
 template class System<WideDual>;

@@ -14,8 +14,10 @@
 
 #include "model/effects/unit.h"
 #include "model/flow/simulate_line.h"
+#include "model/simulate/opening.h"
 #include "model/simulate/regulator_node.h"
 #include "model/simulate/simulate_rig.h"
+#include "model/simulate/told/told_group.h"
 
 namespace plenum::model {
 
@@ -28,20 +30,6 @@ inline double ErrorBound(double value, double typical, double rtol, double atol_
 // kHolding: the reservoir is at the limit pressure and the pumps run the share of time that covers
 // what the lines draw.
 enum class PumpState { kAbsent, kRunning, kHolding, kStopped };
-
-// How far one way through a valve is open: from `start` at `since_s` at a constant rate to `end`.
-template <class T>
-struct Opening {
-  T since_s = T(0.0);
-  T start = T(0.0);
-  double end = 0.0;
-  T ramp_s = T(0.0);  // for the whole way between 0 and 1; 0: at once
-
-  T At(const T& time_s) const;
-  T EndTime() const;  // when it comes to rest
-  void Turn(const T& time_s, double to) { start = At(time_s), since_s = time_s, end = to; }
-  bool Closed(double time_s) const { return end == 0.0 && time_s >= ValueOf(EndTime()); }
-};
 
 // What cuts a step: the present mode of the system holds while the guard is positive.
 enum class GuardKind { kKink, kOperating, kTarget, kPumpLimit, kPumpDemand, kEffect };
@@ -159,23 +147,23 @@ class System {
     bool settled = false;
     bool settles = true;
     bool measured = false, heated = false;
-    std::size_t fill_before_inlet = 0, exhaust_before_inlet = 0;  // elements
-    std::size_t at = 0;                                           // of the pressure
-    std::size_t accounts = 0;                                     // of the first account
+    std::array<TurnedElements, 2> valve;  // of fill and exhaust: before an inlet sensor
+    ToldGroup<T> told;
+    std::size_t at = 0;        // of the pressure
+    std::size_t accounts = 0;  // of the first account
     Moment<T> moment;
   };
   enum LineIndex : std::size_t { kFill, kExhaust, kFeed };
 
   Group MakeGroup(const GroupRig& rig, const Lift& lift, const T& factor) const;
   void LayOut();
-  void FillMoment(Group& group, const T& source_pa, std::span<const T> y) const;
+  void FillMoment(Group& group, const T& t, const T& source_pa, std::span<const T> y) const;
+  OpenWay<T> WayOf(Group& group, std::size_t line, const T& t) const;
   void UpdateFlows(const T& t, std::span<const T> y);
   void Balance(Group& group, std::span<const T> y, std::span<T> dydt) const;
   T DeclaredSource(const T& t, std::span<const T> y) const;  // without what effects do to it
   void SourceRates(const T& draw, std::span<const T> y, std::span<T> dydt) const;
   bool TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const;
-  T PressureBehind(std::vector<LineElement<T>> elements, std::size_t count, const T& opening,
-                   std::size_t fixed, const T& upstream_pa, const T& downstream_pa) const;
   bool LineOpen(const Group& group, std::size_t line, double time_s) const;
   void LookAhead(const T& t, std::span<const T> y);
   std::optional<T> KinkRatio(const Group& group, std::size_t line, const T& t,

@@ -72,6 +72,30 @@ void CheckSchedule(const GroupRig& group, Check& check) {
   }
 }
 
+void CheckCourse(const std::string& field, const std::vector<double>& time_s,
+                 const std::vector<double>& value, Check& check) {
+  if (value.size() != time_s.size()) check.Fails(field, "must hold as many points as time_s");
+  double before_s = -std::numeric_limits<double>::infinity();
+  for (const double at_s : time_s) {
+    check.Require(std::isfinite(at_s) && at_s > before_s, "time_s", at_s,
+                  "finite and above the one before");
+    before_s = at_s;
+  }
+}
+
+void CheckTold(const GroupRig& group, Check& check) {
+  const auto& [opening, volume_m3] = group.told;
+  CheckCourse("told.opening.value", opening.time_s, opening.value, check);
+  for (const double open : opening.value)
+    check.Require(open >= 0.0 && open <= 1.0, "told.opening.value", open, "in [0, 1]");
+  CheckCourse("told.volume_m3.value", volume_m3.time_s, volume_m3.value, check);
+  for (const double m3 : volume_m3.value) check.Positive("told.volume_m3.value", m3);
+  if (!volume_m3.empty() && !group.blocked)
+    check.Fails("blocked", "must hold where the volume is told");
+  if (group.chamber.evacuated && !(opening.empty() && volume_m3.empty()))
+    check.Fails("told", "goes with no evacuated chamber");
+}
+
 std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambient& ambient) {
   Check check("groups[" + std::to_string(index) + "].");
   check.Require(group.count >= 1, "count", group.count, "at least 1");
@@ -99,6 +123,7 @@ std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambi
   if (group.chamber.evacuated && (!group.effects.empty() || group.inlet_after > 0))
     check.Fails("chamber.evacuated", "goes with no effects and no inlet sensor");
   CheckSchedule(group, check);
+  CheckTold(group, check);
   return check.reason();
 }
 
@@ -143,15 +168,7 @@ void CheckSource(const PumpSource& source, Check& check) {
 
 void CheckSource(const DrivenSource& source, Check& check) {
   if (source.time_s.empty()) check.Fails("time_s", "is empty, must hold a point");
-  if (source.pressure_pa.size() != source.time_s.size()) {
-    check.Fails("pressure_pa", "must hold as many points as time_s");
-  }
-  double before_s = -std::numeric_limits<double>::infinity();
-  for (const double time_s : source.time_s) {
-    check.Require(std::isfinite(time_s) && time_s > before_s, "time_s", time_s,
-                  "finite and above the one before");
-    before_s = time_s;
-  }
+  CheckCourse("pressure_pa", source.time_s, source.pressure_pa, check);
   for (const double pressure_pa : source.pressure_pa) check.Positive("pressure_pa", pressure_pa);
   check.Positive("factor", source.factor);
 }

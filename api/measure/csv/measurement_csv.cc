@@ -93,7 +93,8 @@ bool HasSchedule(const Json& run) {
 void AddSourcePressure(const Json& document, const RecordedRun& recorded, Json& run,
                        std::vector<std::string>& notes) {
   const auto found = recorded.readings.find(std::string(kSourcePressureField));
-  if (found == recorded.readings.end() || run.contains(kSourcePressureField) || run.contains("rig"))
+  if (found == recorded.readings.end() || run.contains(kSourcePressureField) ||
+      run.contains("rig") || recorded.readings.contains(std::string(kSetpointField)))
     return;
   const Json* rig = Member(document, "rig");
   const Json* supply = rig == nullptr ? nullptr : Member(*rig, "supply");

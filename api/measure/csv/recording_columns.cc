@@ -139,7 +139,8 @@ void AskForUnit(const ColumnRead& column, TableReading& table) {
          {target.column + " [0.5 " + unit + " = 0 bar; 4.5 " + unit + " = 10 bar]"}});
     return;
   }
-  const bool has_unit = target.column == kTimeField || IsReadingField(target.column);
+  const bool share = target.column == kOpeningField;
+  const bool has_unit = !share && (target.column == kTimeField || IsReadingField(target.column));
   if (!has_unit || !marked.text.empty() || target.by_full_name) return;
   Question question{"column", column.key, "", {}};
   question.text = NameOf(column) + ": in which unit is it? Units of " + target.column + " are " +

@@ -69,6 +69,18 @@ TEST(Protocol, TheTemplateIsReadOnceItHasReadings) {
   }
 }
 
+// The diagnosis is told of the steps of the sensor that the test was planned with.
+TEST(Protocol, TheTemplateStatesTheSensor) {
+  for (const char* family : {"valve", "fitting", "regulator", "compressor"}) {
+    const auto rig = [&](double resolution_kpa) {
+      return Of(family,
+                {.resolution_kpa = resolution_kpa})["tests"][0]["recording"]["template"]["rig"];
+    };
+    EXPECT_EQ(rig(0.25).at("sensor"), Json({{"resolution_kpa", 0.25}})) << family;
+    EXPECT_FALSE(rig(0.0).contains("sensor")) << family;
+  }
+}
+
 TEST(Protocol, ABetterSensorTellsMore) {
   const Json fine = Of("valve", {.noise_kpa = 0.05, .resolution_kpa = 0.0, .bottle_l = 1.0});
   const Json coarse = Of("valve", {.noise_kpa = 2.0, .resolution_kpa = 0.0, .bottle_l = 1.0});

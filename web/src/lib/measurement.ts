@@ -8,6 +8,7 @@ export type ValveState = 'hold' | 'inflate' | 'deflate';
 export interface Run {
   id: string;
   blocked?: boolean;
+  volume?: 'free' | 'imposed'; // imposed: channels.volume_ml drives it
   source_pressure_kpa_gauge?: number | string; // a text has its unit
   initial?: { pressure_kpa_gauge: number };
   valve: { t_s: number; state: ValveState; uncertainty_s?: number | string }[];

@@ -65,6 +65,8 @@ export const recordingFields = [
   'temperature_k',
   'volume_ml',
   'flow_l_per_min_anr',
+  'valve_opening',
+  'source_setpoint_kpa_gauge',
 ];
 
 // Text where the bytes are UTF-8, which is shorter; else the bytes.

@@ -27,7 +27,9 @@ enum class Means {
   kTemperature,
   kVolume,
   kFlow,
-  kOther  // another quantity: a set point, the weather
+  kOpening,
+  kSetpoint,  // of the source, where a word says so; else another quantity
+  kOther      // another quantity: the weather, a reference
 };
 
 struct Word {
@@ -117,13 +119,17 @@ constexpr Word kWords[] = {
     {"durchfluss", Means::kFlow},
     {"volumenstrom", Means::kFlow},
     {"q", Means::kFlow},
-    {"setpoint", Means::kOther},
-    {"set", Means::kOther},
-    {"target", Means::kOther},
-    {"desired", Means::kOther},
+    {"opening", Means::kOpening},
+    {"oeffnung", Means::kOpening},
+    {"oeffnungsgrad", Means::kOpening},
+    {"ventiloeffnung", Means::kOpening},
+    {"setpoint", Means::kSetpoint},
+    {"set", Means::kSetpoint},
+    {"target", Means::kSetpoint},
+    {"desired", Means::kSetpoint},
     {"reference", Means::kOther},
-    {"soll", Means::kOther},
-    {"solldruck", Means::kOther},
+    {"soll", Means::kSetpoint},
+    {"solldruck", Means::kSetpoint},
     {"ambient", Means::kOther},
     {"atmospheric", Means::kOther},
     {"barometric", Means::kOther},
@@ -166,6 +172,18 @@ std::vector<std::string_view> FieldsOfPressure(const auto& has) {
   return {source ? kSourcePressureField : inlet ? kInletPressureField : kPressureField};
 }
 
+// "Supply setpoint", "Versorgung Solldruck": of the source alone. A set point of nothing else, or
+// of another quantity, is no field.
+std::vector<std::string_view> FieldsOfSetpoint(std::set<Means> meanings) {
+  const bool source =
+      meanings.contains(Means::kSource) || meanings.contains(Means::kSourcePressure);
+  for (const Means known :
+       {Means::kSetpoint, Means::kSource, Means::kSourcePressure, Means::kPressure})
+    meanings.erase(known);
+  if (!source || !meanings.empty()) return {};
+  return {kSetpointField};
+}
+
 }  // namespace
 
 const std::vector<std::string>& RecordingFields() {
@@ -180,7 +198,9 @@ const std::vector<std::string>& RecordingFields() {
                                                    "inlet_pressure_kpa_gauge",
                                                    "temperature_k",
                                                    "volume_ml",
-                                                   "flow_l_per_min_anr"};
+                                                   "flow_l_per_min_anr",
+                                                   "valve_opening",
+                                                   "source_setpoint_kpa_gauge"};
   return kFields;
 }
 
@@ -189,20 +209,26 @@ bool IsValveField(std::string_view field) {
 }
 
 bool IsPressureField(std::string_view field) {
-  return field == kPressureField || field == kSourcePressureField || field == kInletPressureField;
+  return field == kPressureField || field == kSourcePressureField || field == kInletPressureField ||
+         field == kSetpointField;
 }
 
 bool IsReadingField(std::string_view field) {
   return IsPressureField(field) || field == kTemperatureField || field == kVolumeField ||
-         field == kFlowField;
+         field == kFlowField || field == kOpeningField;
 }
 
 std::vector<std::string_view> FieldsNamed(std::string_view words) {
   const std::set<Means> meanings = MeaningsOf(words);
   const auto has = [&](Means one) { return meanings.contains(one); };
   if (meanings.empty() || has(Means::kOther)) return {};
+  if (has(Means::kSetpoint)) return FieldsOfSetpoint(meanings);
   const bool pressure =
       has(Means::kPressure) || has(Means::kSourcePressure) || has(Means::kInletPressure);
+  if (has(Means::kOpening)) {
+    const bool alone = meanings.size() == 1 || (meanings.size() == 2 && has(Means::kValve));
+    return alone ? std::vector<std::string_view>{kOpeningField} : std::vector<std::string_view>{};
+  }
   const int quantities = int(pressure) + int(has(Means::kTemperature)) + int(has(Means::kVolume)) +
                          int(has(Means::kFlow)) + int(has(Means::kTime)) + int(has(Means::kValve));
   if (quantities > 1) return {};

@@ -17,11 +17,13 @@ inline constexpr std::string_view kRunField = "run", kDateField = "date", kTimeF
                                   kSourcePressureField = "source_pressure_kpa_gauge",
                                   kInletPressureField = "inlet_pressure_kpa_gauge",
                                   kTemperatureField = "temperature_k", kVolumeField = "volume_ml",
-                                  kFlowField = "flow_l_per_min_anr";
+                                  kFlowField = "flow_l_per_min_anr",
+                                  kOpeningField = "valve_opening",
+                                  kSetpointField = "source_setpoint_kpa_gauge";
 const std::vector<std::string>& RecordingFields();
 bool IsValveField(std::string_view field);
 bool IsPressureField(std::string_view field);
-// With readings: pressures, temperature, volume, flow.
+// With readings: pressures, temperature, volume, flow, opening.
 bool IsReadingField(std::string_view field);
 
 // The fields that the words of a heading, without its unit, may name: "Supply Druck" the source

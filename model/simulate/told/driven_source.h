@@ -6,12 +6,13 @@
 // tolerance of 1e-5 a step may pass up to seven points of a record of many. The check in the line
 // passes what noise lifts and holds what it drops, so noise also biases a line near equal
 // pressures.
-#ifndef PLENUM_MODEL_SIMULATE_DRIVEN_SOURCE_H_
-#define PLENUM_MODEL_SIMULATE_DRIVEN_SOURCE_H_
+#ifndef PLENUM_MODEL_SIMULATE_TOLD_DRIVEN_SOURCE_H_
+#define PLENUM_MODEL_SIMULATE_TOLD_DRIVEN_SOURCE_H_
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "model/simulate/told/time_course.h"
 
 namespace plenum::model {
 
@@ -21,29 +22,13 @@ struct DrivenSource {
   double factor = 1.0;              // on the gauge pressure
   bool operator==(const DrivenSource&) const = default;
 
-  // p(t) of the record, and its slope, 0 outside. `near`: the point after the instant that was
-  // asked for last, which is tried first.
-  struct Point {
-    double pressure_pa, slope_pa_per_s;
-  };
-  Point RecordedAt(double t_s, std::size_t& near) const {
-    if (t_s <= time_s.front()) return {pressure_pa.front(), 0.0};
-    if (t_s >= time_s.back()) return {pressure_pa.back(), 0.0};
-    const bool known = near > 0 && time_s[near - 1] <= t_s && t_s < time_s[near];
-    if (!known) {
-      const auto next = std::upper_bound(time_s.begin(), time_s.end(), t_s);
-      near = static_cast<std::size_t>(next - time_s.begin());
-    }
-    const std::size_t i = near;
-    const double slope = (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
-    return {pressure_pa[i - 1] + slope * (t_s - time_s[i - 1]), slope};
-  }
+  // p(t) of the record.
   double RecordedPressure(double t_s) const {
     std::size_t near = 0;
-    return RecordedAt(t_s, near).pressure_pa;
+    return PointOfCourse(time_s, pressure_pa, t_s, near).value;
   }
 };
 
 }  // namespace plenum::model
 
-#endif  // PLENUM_MODEL_SIMULATE_DRIVEN_SOURCE_H_
+#endif  // PLENUM_MODEL_SIMULATE_TOLD_DRIVEN_SOURCE_H_
