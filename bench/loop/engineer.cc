@@ -1,7 +1,6 @@
 #include "bench/loop/engineer.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 
 #include "api/design/read/worst_parts.h"
@@ -46,25 +45,40 @@ int TestsLeft(const Engineer& engineer, const Habits& habits) {
 struct Named {
   std::vector<TestName> tests;
   double saving_share = 0.0;
+  double PerTest() const { return saving_share / static_cast<double>(tests.size()); }
 };
 
 TestName NameOf(const Json& test) { return {test.at("part"), test.at("protocol")}; }
 
-// The most saving of those named that has a test that was not made.
-Named NextOf(const Engineer& engineer) {
-  for (const Json& item : engineer.answer.at("measure_first")) {
-    Named named;
-    const double objective = ObjectiveOf(engineer.answer).get<double>();
-    named.saving_share = item.at("saving_share").is_number()
-                             ? item.at("saving_share").get<double>()
-                             : item.at("saving_interval")[0].get<double>() / objective;
-    std::vector<TestName> all{NameOf(item)};
-    if (item.contains("with")) all.push_back(NameOf(item.at("with")));
-    std::copy_if(all.begin(), all.end(), std::back_inserter(named.tests),
-                 [&](const TestName& test) { return !engineer.made.contains(test); });
-    if (!named.tests.empty()) return named;
+// What the answer names: the tests of an item of measure_first, those of one of measure_together.
+std::vector<Named> NamedIn(const Json& answer) {
+  std::vector<Named> named;
+  for (const Json& item : answer.at("measure_first")) {
+    const double share =
+        item.at("saving_share").is_number()
+            ? item.at("saving_share").get<double>()
+            : item.at("saving_interval")[0].get<double>() / ObjectiveOf(answer).get<double>();
+    named.push_back({{NameOf(item)}, share});
+    if (item.contains("with")) named.back().tests.push_back(NameOf(item.at("with")));
   }
-  return {};
+  for (const Json& item : answer.at("measure_together")) {
+    named.push_back({{}, item.at("saving_share").get<double>()});
+    for (const Json& test : item.at("tests")) named.back().tests.push_back(NameOf(test));
+  }
+  return named;
+}
+
+// The most saving for each test that has to be made, of those that the engineer can still make.
+Named NextOf(const Engineer& engineer, const Habits& habits) {
+  Named next;
+  for (Named& named : NamedIn(engineer.answer)) {
+    std::erase_if(named.tests, [&](const TestName& test) { return engineer.made.contains(test); });
+    const bool possible = !named.tests.empty() && named.saving_share >= habits.saving_least &&
+                          static_cast<int>(named.tests.size()) <= TestsLeft(engineer, habits);
+    if (possible && (next.tests.empty() || named.PerTest() > next.PerTest()))
+      next = std::move(named);
+  }
+  return next;
 }
 
 // Tests of a design's parts that would settle anything, those made left out; of estimates only.
@@ -99,10 +113,10 @@ std::vector<TestName> TestsOf(const Engineer& engineer, const Json& design, bool
 }  // namespace
 
 void FollowLoop(Engineer& engineer, const Habits& habits) {
-  while (TestsLeft(engineer, habits) > 0) {
-    const Named next = NextOf(engineer);
-    if (next.tests.empty() || next.saving_share < habits.saving_least) return;
-    for (const TestName& test : next.tests) Make(engineer, test, "saves", next.saving_share);
+  while (true) {
+    const Named next = NextOf(engineer, habits);
+    if (next.tests.empty()) return;
+    Make(engineer, next.tests.front(), "saves", next.saving_share);
     RankAgain(engineer);
   }
 }

@@ -29,8 +29,9 @@ struct Engineer {
   api::Json tests = api::Json::array();
 };
 
-// Makes the test that measure_first names, saves the part, ranks again, until no test is named that
-// was not made and saves enough, or the tests are spent. Of a pair both are made.
+// Of what measure_first and measure_together name takes that which saves most for each test still
+// to be made, makes its first one, saves the part and ranks again, until nothing is named that
+// saves enough, or the tests are spent.
 void FollowLoop(Engineer& engineer, const Habits& habits);
 
 // Tests what is estimated of the parts of the design that is to be bought, and ranks again, until

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 
 #include "api/design/read/worst_parts.h"
@@ -31,11 +32,14 @@ class Drawing {
   Drawing(const catalog::Part& row, std::string_view world, Weights weights)
       : row_(row), world_(world), weights_(weights) {}
 
-  double FactorOf(const std::string& field, catalog::Provenance provenance) const {
-    if (weights_ == Weights::kAsPrinted && api::WorstOf(row_.family, field) == api::Worst::kSum)
-      return 1.0;
-    const double deviation = 0.5 * api::HalfWidth(row_, field, api::Tolerance());
-    return 1.0 + deviation * ErrorInDeviations(world_, row_.id, field, provenance);
+  double FactorOf(const std::string& field, catalog::Provenance provenance,
+                  const std::optional<double>& uncertainty) const {
+    const bool as_printed =
+        weights_ == Weights::kAsPrinted && api::WorstOf(row_.family, field) == api::Worst::kSum;
+    const double half_width = api::HalfWidth(row_, field, api::Tolerance());
+    if (as_printed || half_width == 0.0) return 1.0;
+    return std::exp(uncertainty.value_or(0.5 * half_width) *
+                    ErrorInDeviations(world_, row_.id, field, provenance));
   }
 
  private:
@@ -48,10 +52,14 @@ catalog::Part TruthOf(const catalog::Part& row, std::string_view world, Weights 
   const Drawing drawing(row, world, weights);
   catalog::Part truth = row;
   for (auto& [field, number] : truth.numbers)
-    number.value = InRange(row, field, number.value * drawing.FactorOf(field, number.provenance));
-  if (truth.curve) {
-    const double delivery = drawing.FactorOf("free_air", row.curve->free_air_provenance);
-    const double current = drawing.FactorOf("current", row.curve->current_provenance);
+    number.value = InRange(
+        row, field, number.value * drawing.FactorOf(field, number.provenance, number.uncertainty));
+  if (row.curve) {
+    const catalog::Curve& curve = *row.curve;
+    const double delivery =
+        drawing.FactorOf("free_air", curve.free_air_provenance, curve.free_air_uncertainty);
+    const double current =
+        drawing.FactorOf("current", curve.current_provenance, curve.current_uncertainty);
     for (catalog::CurvePoint& point : truth.curve->points) {
       point.free_air_l_per_min *= delivery;
       point.current_a *= current;

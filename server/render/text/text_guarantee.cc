@@ -54,6 +54,21 @@ std::string TestsText(const Json& tests, bool complete) {
   return table.Text() + rest;
 }
 
+// One test alone stands above.
+std::string TogetherText(const Json& together) {
+  std::string text;
+  for (const Json& item : together) {
+    if (item.at("tests").size() < 2) continue;
+    std::string names;
+    for (const Json& test : item.at("tests"))
+      names += (names.empty() ? "" : ", ") + TestName(test);
+    text += fmt::format("  together {} tests save {} (number {} on paper): {}\n",
+                        item.at("tests").size(), Percent(item.at("saving_share")),
+                        item.at("rank").get<int>(), names);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string GuaranteeText(const Json& answer) {
@@ -66,7 +81,7 @@ std::string GuaranteeText(const Json& answer) {
     text += "  certainty costs " + Percent(guarantee.at("costs_share")) + "\n";
   return text +
          TestsText(answer.at("measure_first"), answer.at("measure_first_complete").get<bool>()) +
-         "\n";
+         TogetherText(answer.value("measure_together", Json::array())) + "\n";
 }
 
 }  // namespace plenum::server
