@@ -15,7 +15,7 @@ namespace {
 constexpr double kAmbientPa = 1e5, kRoomK = 293.15;
 constexpr double kRoomDeviationK = 2.0, kVolumeDeviation = 0.002, kSourceDeviation = 0.005;
 constexpr double kAirCvOverR = 2.5;
-constexpr double kStepS = 1e-3;
+constexpr double kStepS = 2e-3, kCoarseStepS = 4e-3;
 constexpr int kCurvePoints = 400;
 
 double NumberOf(const catalog::Part& part, const std::string& field) {
@@ -82,17 +82,16 @@ test::EffectRig RigOf(const api::Json& measurement, const catalog::Part& truth,
 
 // A pump that delivers less than its table takes longer: the engineer records until the bottle is
 // as full as the test asks for, and writes those times into the template.
-constexpr double kFull = 0.9, kLongest = 32.0;
+constexpr double kFull = 0.97, kLonger = 1.25;
+constexpr int kLongest = 12;  // 1.25^12 = 14.6
 double Stretch(test::EffectRig rig, const api::Json& run) {
-  const double filled_s = run.at("valve").back().at("t_s").get<double>();
-  double stretch = 1.0;
-  for (; stretch < kLongest; stretch *= 1.25) {
-    rig.schedule = {{0.0, 1}};
-    const double reached_pa =
-        test::SimulateEffects(rig, {stretch * filled_s}, kStepS).pressure_pa.back();
-    if (reached_pa - kAmbientPa >= kFull * (rig.operating_pa - kAmbientPa)) break;
-  }
-  return stretch;
+  std::vector<double> end_s{run.at("valve").back().at("t_s").get<double>()};
+  for (int k = 0; k < kLongest; ++k) end_s.push_back(kLonger * end_s.back());
+  rig.schedule = {{0.0, 1}};
+  const std::vector<double> pa = test::SimulateEffects(rig, end_s, kCoarseStepS).pressure_pa;
+  std::size_t k = 0;
+  while (k + 1 < pa.size() && pa[k] - kAmbientPa < kFull * (rig.operating_pa - kAmbientPa)) ++k;
+  return end_s[k] / end_s[0];
 }
 
 std::vector<test::MassCommand> ScheduleOf(const api::Json& run) {

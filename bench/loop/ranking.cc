@@ -56,7 +56,7 @@ bool SameParts(const Json& design, const Json& other) {
     std::map<std::string, double> parts;
     if (of.is_null()) return parts;
     for (const Json& row : of.at("parts"))
-      parts[row.value("group", "") + " " + row.at("id").get<std::string>()] +=
+      parts[row.at("group").dump() + " " + row.at("id").get<std::string>()] +=
           row.at("quantity").get<double>();
     return parts;
   };
