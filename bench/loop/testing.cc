@@ -20,6 +20,9 @@ namespace {
 
 using api::Json;
 
+// As the command of a pump's protocol says.
+constexpr double kDiagnosisS = 300.0;
+
 Json TestOf(const catalog::Part& known, const std::string& protocol) {
   const Json document = api::RenderProtocol(known, {});
   for (const Json& test : document.at("tests"))
@@ -37,6 +40,7 @@ Json Diagnosed(const Json& measurement, const catalog::Part& known) {
   if (!errors.empty())
     throw std::runtime_error(known.id + ": " + errors[0].pointer + " " + errors[0].detail);
   request.dataset = std::get<calibration::Dataset>(std::move(dataset));
+  request.time_limit_s = kDiagnosisS;
   return api::RunDiagnosis(request, {}).answer;
 }
 

@@ -59,12 +59,10 @@ std::string TogetherText(const Json& together) {
   std::string text;
   for (const Json& item : together) {
     if (item.at("tests").size() < 2) continue;
-    std::string names;
-    for (const Json& test : item.at("tests"))
-      names += (names.empty() ? "" : ", ") + TestName(test);
-    text += fmt::format("  together {} tests save {} (number {} on paper): {}\n",
-                        item.at("tests").size(), Percent(item.at("saving_share")),
-                        item.at("rank").get<int>(), names);
+    text +=
+        fmt::format("  together {} tests save {} (number {} on paper)\n", item.at("tests").size(),
+                    Percent(item.at("saving_share")), item.at("rank").get<int>());
+    for (const Json& test : item.at("tests")) text += "    " + TestName(test) + "\n";
   }
   return text;
 }
