@@ -5,8 +5,9 @@
 
 #include "api/design/designs.h"
 #include "api/design/explanation.h"
-#include "api/design/measure_first.h"
 #include "api/design/read/selection.h"
+#include "api/design/savings/measure_first.h"
+#include "api/design/savings/measure_together.h"
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/problem/family_specs.h"
 
@@ -96,8 +97,10 @@ Json AnswerGuaranteed(const DesignRequest& request, const optimizer::SearchOptio
   document["guarantee"] = RenderGuarantee(request.guarantee->tolerance, guaranteed, on_paper);
   document["on_paper"] = OfTheList(RenderAnswer(request, on_paper, rows));
   optimizer::SearchOptions rest = options;
-  rest.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
-  AddMeasureFirst(request, guaranteed, on_paper, rest, rows, document);
+  for (const auto add : {AddMeasureTogether, AddMeasureFirst}) {
+    rest.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
+    add(request, guaranteed, on_paper, rest, rows, document);
+  }
   if (request.explain) AddExplanation(*request.explain, problem, guaranteed, of_a_list, document);
   document["seconds"] = Number(seconds());
   return document;

@@ -20,8 +20,8 @@ namespace plenum::api {
 //   "costs_share"
 //     }, null where one of the two has no design;
 //   "on_paper": { status, list, designs, by_configuration, proof, … } of the list on paper;
-//   "measure_first" (measure_first.h).
-// Each list has 2/5 of the time limit at most; what is left goes to measure_first.
+//   "measure_together", "measure_first" (savings/).
+// Each list has 2/5 of the time limit at most; what is left goes to these two.
 Json AnswerGuaranteed(const DesignRequest& request, const optimizer::SearchOptions& options,
                       const std::vector<catalog::Part>& rows);
 

@@ -149,8 +149,9 @@ class Revising {
   void TakeCurve(const std::vector<const Json*>& rows) {
     if (!part_.curve || part_.curve->points.size() != rows.size())
       return Refuse("the curve of " + part_.id + " has other points than the rig's");
-    for (const Json* row : rows)
-      if (!row->at("refused").is_null())
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (const Json* row = rows[i];
+          !row->at("refused").is_null() && !Stays(part_.curve->points[i], *row))
         return Refuse("free_air at " + Decimal(row->at("pressure_kpa_gauge").get<double>()) +
                       " kPa " + row->at("refused").get<std::string>());
     catalog::Curve& curve = *part_.curve;
@@ -162,8 +163,7 @@ class Revising {
     bool contradicted = false;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       double& flow = points[i].free_air_l_per_min;
-      // The end of the table, where the pump may well deliver nothing, stays.
-      if (flow == 0.0 && rows[i]->at("interval_95")[0].get<double>() <= 0.0) continue;
+      if (Stays(points[i], *rows[i])) continue;
       const double value = rows[i]->at("fitted").get<double>();
       const double deviation = rows[i]->at("uncertainty").is_null()
                                    ? 0.0
@@ -190,6 +190,13 @@ class Revising {
               "%.3g");
     curve.free_air_provenance = Origin::kMeasured;
     curve.free_air_source = Source();
+  }
+
+  // The end of the table, where the pump may well deliver nothing: a test that ends before its
+  // stall tells little of it.
+  static bool Stays(const catalog::CurvePoint& point, const Json& row) {
+    return point.free_air_l_per_min == 0.0 &&
+           (!row.at("refused").is_null() || row.at("interval_95")[0].get<double>() <= 0.0);
   }
 
   static double LargestShare(const std::vector<const Json*>& rows) {

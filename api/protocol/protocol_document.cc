@@ -21,6 +21,8 @@ namespace {
 using calibration::Dataset;
 using calibration::MeasuredEstimate;
 
+// A curve has a dozen numbers: a diagnosis of three fillings takes one to two minutes.
+constexpr const char* kPumpTime = " --time-limit 300";
 constexpr double kRigShare = 0.8;  // of the variance: the rig decides how precise the number is
 
 std::string Percent(double share) {
@@ -123,7 +125,8 @@ Json Equipment(const BottleTest& test) {
 Json Recording(const BottleTest& test, const catalog::Part& part) {
   return {{"template", test.measurement},
           {"columns", {"run", "t_s", "valve", "pressure_kpa_gauge"}},
-          {"command", "plenum diagnose recording.csv --rig template.json --save-part " + part.id}};
+          {"command", "plenum diagnose recording.csv --rig template.json --save-part " + part.id +
+                          (part.family == "compressor" ? kPumpTime : "")}};
 }
 
 void AddByHand(const Protocol& protocol, const catalog::Part& part, const TestSensor& sensor,

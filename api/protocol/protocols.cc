@@ -14,7 +14,7 @@ const std::vector<Protocol>& Protocols() {
       {"bottle_test", "fitting", {"sonic_conductance_dm3_per_s_bar", "critical_ratio"}},
       {"bottle_test", "regulator", {"sonic_conductance_dm3_per_s_bar", "critical_ratio"}},
       {"volume_test", "reservoir", {"internal_volume_ml"}},
-      {"volume_test", "cylinder", {"water_volume_l"}},
+      {"volume_test", "cylinder", {"water_volume_l", "fill_pressure_kpa_gauge"}},
       {"discharge_test", "battery", {"capacity_ah", "current_max_a"}}};
   return kProtocols;
 }

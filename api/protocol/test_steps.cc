@@ -9,6 +9,7 @@ constexpr double kScaleG = 1.0;         // least step of a kitchen scale
 constexpr double kWaterShare = 0.002;   // density with temperature, bubbles, drops left
 constexpr double kMeterShare = 0.01;    // of a multimeter: current, voltage
 constexpr double kClockShare = 0.002;   // of hours of discharge, where its end is seen
+constexpr double kGaugeShare = 0.016;   // of a filling station's gauge, class 1.6
 constexpr double kBottleShare = 0.002;  // uncertainty of the known volume
 constexpr double kSharedKpa = 400.0;    // in the known volume before it is opened
 constexpr double kReadings = 10.0;      // that are averaged: more share their error
@@ -49,8 +50,9 @@ constexpr std::string_view kPump =
     "curve.";
 constexpr std::string_view kPumpRecord =
     "Start pump and recording together; stop when the template's time is over, or when the "
-    "pressure "
-    "no longer rises. A pump that stalls earlier than its table ends is recorded up to there.";
+    "pressure no longer rises. A pump that stalls earlier than its table ends is recorded up to "
+    "there. A pump that delivers less than its table takes longer: go on until the pressure hardly "
+    "rises, and write those times into the template.";
 constexpr std::string_view kPumpHold =
     "With the pump off record the template's hold: what the pressure falls by, once the gas has "
     "cooled, is what the pump lets back or the bottle leaks.";
@@ -70,6 +72,9 @@ constexpr std::string_view kCylinder =
     "Weigh the cylinder empty and, with its valve removed, full of water, if its inspection allows "
     "it.";
 constexpr std::string_view kCylinderMean = "Repeat twice; write the mean into water_volume_l.";
+constexpr std::string_view kCylinderFill =
+    "Fill it as for a mission, let it cool down to the room's temperature, and read its pressure: "
+    "the least of what your filling station gives is fill_pressure_kpa_gauge.";
 constexpr std::string_view kDuty =
     "Run the pump at its worst pressure in a cycle of five minutes, first half on, half off.";
 constexpr std::string_view kDutyHeat =
@@ -105,7 +110,7 @@ const std::vector<Steps>& AllSteps() {
       {"bottle_test", "regulator", {kWeigh, kRegulator, kSource, kWatch, kRecordFilling}},
       {"bottle_test", "compressor", {kWeigh, kPump, kPumpRecord, kPumpHold, kPumpRead}},
       {"volume_test", "reservoir", {kWater, kShare, kReservoirMean}},
-      {"volume_test", "cylinder", {kCylinder, kShare, kCylinderMean}},
+      {"volume_test", "cylinder", {kCylinder, kShare, kCylinderMean, kCylinderFill}},
       {"duty_test", "compressor", {kDuty, kDutyHeat, kDutyMost}},
       {"switching_test", "valve", {kSwitching, kCoil}},
       {"discharge_test", "battery", {kDischarge, kCapacity}}};
@@ -154,8 +159,12 @@ std::vector<ReadNumber> ReadByHand(std::string_view protocol, const catalog::Par
                                    const TestSensor& sensor) {
   if (protocol == "volume_test" && part.family == "reservoir")
     return OfVolume("internal_volume_ml", NumberOf(part, "internal_volume_ml"), sensor);
-  if (protocol == "volume_test")
-    return OfVolume("water_volume_l", 1e3 * NumberOf(part, "water_volume_l"), sensor);
+  if (protocol == "volume_test") {
+    std::vector<ReadNumber> numbers =
+        OfVolume("water_volume_l", 1e3 * NumberOf(part, "water_volume_l"), sensor);
+    numbers.push_back({"fill_pressure_kpa_gauge", kGaugeShare, "the filling station's gauge"});
+    return numbers;
+  }
   if (protocol == "bottle_test" && part.family == "compressor") {
     const double stall_kpa = NumberOf(part, "pressure_max_kpa_gauge");
     return {{"current", kMeterShare, "a multimeter at each pressure of the table"},

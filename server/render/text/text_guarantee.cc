@@ -54,6 +54,19 @@ std::string TestsText(const Json& tests, bool complete) {
   return table.Text() + rest;
 }
 
+// One test alone stands above.
+std::string TogetherText(const Json& together) {
+  std::string text;
+  for (const Json& item : together) {
+    if (item.at("tests").size() < 2) continue;
+    text +=
+        fmt::format("  together {} tests save {} (number {} on paper)\n", item.at("tests").size(),
+                    Percent(item.at("saving_share")), item.at("rank").get<int>());
+    for (const Json& test : item.at("tests")) text += "    " + TestName(test) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string GuaranteeText(const Json& answer) {
@@ -66,7 +79,7 @@ std::string GuaranteeText(const Json& answer) {
     text += "  certainty costs " + Percent(guarantee.at("costs_share")) + "\n";
   return text +
          TestsText(answer.at("measure_first"), answer.at("measure_first_complete").get<bool>()) +
-         "\n";
+         TogetherText(answer.value("measure_together", Json::array())) + "\n";
 }
 
 }  // namespace plenum::server

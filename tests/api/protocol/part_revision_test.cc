@@ -118,6 +118,29 @@ TEST(PartRevision, ACurveIsOneNumberAtAllItsPoints) {
   EXPECT_EQ(revised.part->curve->free_air_provenance, Origin::kMeasured);
 }
 
+// A test of the protocol ends before the pump stalls: what it does not tell of the last point is no
+// reason against the others, and of a point at which the pump delivers it is.
+TEST(PartRevision, TheEndOfACurveWhereNothingIsDeliveredMayStayUnknown) {
+  catalog::Part part = PartOf("compressor");
+  part.curve->points[2].free_air_l_per_min = 0.0;
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < 3; ++i) {
+    Json row = Row("free_air", i == 0 ? 25.0 : i == 1 ? 14.0 : 0.02, i == 2 ? 0.36 : 0.01);
+    row["part"] = part.id;
+    row["pressure_kpa_gauge"] = part.curve->points[i].pressure_kpa_gauge;
+    row["interval_95"] = {0.006, 0.034};
+    rows.push_back(row);
+  }
+  rows[2]["refused"] = "is known to 36 % only";
+  const PartRevision revised = RevisePart(part, Answer(rows), Files(), false);
+  ASSERT_TRUE(revised.part) << revised.told.dump();
+  EXPECT_DOUBLE_EQ(revised.part->curve->points[1].free_air_l_per_min, 14.0);
+  EXPECT_EQ(revised.part->curve->points[2].free_air_l_per_min, 0.0);
+  EXPECT_DOUBLE_EQ(revised.part->curve->free_air_uncertainty.value(), 0.01);
+  part.curve->points[2].free_air_l_per_min = 1.0;
+  EXPECT_FALSE(RevisePart(part, Answer(rows), Files(), false).part);
+}
+
 // History and undo are the catalogue's.
 using PartRevisionInStore = catalog::InFolder;
 TEST_F(PartRevisionInStore, IsOneRevisionThatCanBeUndone) {
