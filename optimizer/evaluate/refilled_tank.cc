@@ -89,7 +89,8 @@ double BestFillPa(const Problem& problem, const Candidate& candidate, const Oper
     return std::max(lacking, WorthPerPa(problem, candidate, refill.stop_pa));
   };
   if (excess(highest_pa) > 0.0) return highest_pa;
-  const double low_pa = TankInletPa(problem, candidate, point.source_pa);
+  const double low_pa = kAboveKept * (TankInletPa(problem, candidate, point.source_pa) +
+                                      TankFallPa(problem, candidate, air_m3));
   const double fill_pa =
       SmallestFeasible(excess, std::min(low_pa, highest_pa), highest_pa, kTolerance);
   return std::min(highest_pa, fill_pa * (1.0 + kTolerance));
