@@ -134,8 +134,7 @@ class Walker {
   void Take(NodePtr node) {
     Candidate candidate = node->bounds->CandidateOf(node->box);
     const Leaf leaf = *node->leaf;
-    const bool made =
-        candidate.reservoir.index == kCustom || HasTank(candidate.configuration);
+    const bool made = candidate.reservoir.index == kCustom || HasTank(candidate.configuration);
     // Where energy counts another volume, or fill of a tank, may do within a lower limit; else this
     // is the least.
     const bool again = made && problem_.objective.energy_wh > 0.0;

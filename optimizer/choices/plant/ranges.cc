@@ -88,8 +88,7 @@ double HighestUseful(const Problem& problem, Configuration configuration, double
     for (const model::Regulator& regulator : problem.parts.regulators)
       highest_pa = std::max(highest_pa, regulator.outlet_pressure_max_pa);
   }
-  if (HasTank(configuration))
-    highest_pa = std::max(highest_pa, HighestTankPa(problem));
+  if (HasTank(configuration)) highest_pa = std::max(highest_pa, HighestTankPa(problem));
   return std::min(problem.source_pressure_max_pa, highest_pa);
 }
 
@@ -101,8 +100,7 @@ BottleRange FindBottleRange(const Problem& problem, Configuration configuration)
     range.high_pa = std::max(range.high_pa, regulator.inlet_pressure_min_pa);
   }
   range.high_pa = std::max(range.high_pa, std::min(outlet_pa, problem.source_pressure_max_pa));
-  if (HasTank(configuration))
-    range.high_pa = std::max(range.high_pa, HighestTankPa(problem));
+  if (HasTank(configuration)) range.high_pa = std::max(range.high_pa, HighestTankPa(problem));
   return range;
 }
 

@@ -252,6 +252,14 @@ export interface Saving extends PartTest {
   with?: PartTest;
 }
 
+// Tests after which a design on paper, by its rank, is a guaranteed one.
+export interface SavingTogether {
+  rank: number;
+  tests: PartTest[];
+  objective: number;
+  saving_share: number;
+}
+
 // How a part is measured, and how precise that will be.
 export interface ProtocolTest {
   protocol: string;
@@ -320,6 +328,7 @@ export interface Answer extends Remarked {
   on_paper?: Pick<Answer, 'status' | 'designs' | 'proof'>;
   measure_first?: Saving[];
   measure_first_complete?: boolean;
+  measure_together?: SavingTogether[];
   seconds: number;
   model?: { name: string; version: number; proved: boolean; effects: Effect[] };
   against_nominal?: {

@@ -1,9 +1,11 @@
 // Of a guaranteed list: what certainty costs, the best design on paper beside the best guaranteed
 // one, and which test of a part would save most.
+import { Fragment } from 'preact';
+
 import { objectiveUnit } from '../lib/amounts';
 import { fieldName, percent, significant } from '../lib/format';
 import { link } from '../lib/route';
-import type { Answer, Design, PartTest, Saving } from '../lib/types';
+import type { Answer, Design, PartTest, Saving, SavingTogether } from '../lib/types';
 import { Panel } from '../ui/controls';
 import { number, Table } from '../ui/table';
 import { identity } from './kinds';
@@ -58,6 +60,7 @@ export function Guarantee({ answer }: { answer: Answer }) {
         ))}
       </Table>
       <Tests savings={answer.measure_first ?? []} unit={unit} />
+      <Together ways={answer.measure_together ?? []} unit={unit} />
       {answer.measure_first_complete === false && (
         <p class="muted">Time ran out before all tests of parts were looked at.</p>
       )}
@@ -68,6 +71,37 @@ export function Guarantee({ answer }: { answer: Answer }) {
 const testName = ({ protocol }: PartTest): string => protocol.replace(/_/g, ' ');
 const numbersOf = (test: PartTest): string =>
   test.numbers.map((field) => fieldName(field).label || field.replace(/_/g, ' ')).join(', ');
+
+function Together({ ways, unit }: { ways: SavingTogether[]; unit: string }) {
+  if (ways.length === 0) return null;
+  return (
+    <Table
+      label="What several tests make of designs on paper"
+      heads={['measure all of', 'design on paper', number('then', unit), number('share')]}
+    >
+      {ways.map(({ rank, tests, objective, saving_share }) => (
+        <tr key={rank}>
+          <th scope="row">
+            {tests.map((test, i) => (
+              <Fragment key={`${test.part} ${test.protocol}`}>
+                {i > 0 && ', '}
+                <a
+                  href={link(['catalogue', test.family], { part: test.part, protocol: 'open' })}
+                  data-tip={`${testName(test)}: ${numbersOf(test)}`}
+                >
+                  {test.part}
+                </a>
+              </Fragment>
+            ))}
+          </th>
+          <td>rank {rank}</td>
+          <td class="num">{significant(objective, 4)}</td>
+          <td class="num">{percent(saving_share)}</td>
+        </tr>
+      ))}
+    </Table>
+  );
+}
 
 function Tests({ savings, unit }: { savings: Saving[]; unit: string }) {
   if (savings.length === 0)
