@@ -53,6 +53,7 @@ case ${1:-all} in
     run_tests asan
     ;;
   full)
+    export PLENUM_ALL_DRAWS=1  # of tests by enumeration, whose draws are a third else
     install_packages $rule_packages $sanitizer_packages $python_packages $docs_packages
     build release
     run_tests release

@@ -99,16 +99,20 @@ void RunTo(const RefillInput& input, double air_m3, double highest_pa, Refill& r
   auto stepper = boost::numeric::odeint::make_dense_output(kTolerance, kTolerance,
                                                            runge_kutta_dopri5<State>());
   stepper.initialize(State{input.kept_pa, 0.0, 0.0}, 0.0, input.seconds * 1e-3);
-  while (stepper.current_state()[1] < air_m3 && stepper.current_time() < input.seconds)
+  // Pumps whose delivery vanishes at the highest pressure may come to it a little early.
+  const auto done = [&](const State& state) {
+    return state[1] >= air_m3 || state[0] >= highest_pa;
+  };
+  while (!done(stepper.current_state()) && stepper.current_time() < input.seconds)
     stepper.do_step(rate);
   double early_s = stepper.previous_time(), late_s = stepper.current_time();
   State state = stepper.current_state();
-  for (int i = 0; i < kHalvings && state[1] > air_m3; ++i) {
+  for (int i = 0; i < kHalvings && done(stepper.current_state()); ++i) {
     const double middle_s = 0.5 * (early_s + late_s);
     stepper.calc_state(middle_s, state);
-    (state[1] > air_m3 ? late_s : early_s) = middle_s;
-    if (state[1] < air_m3) stepper.calc_state(late_s, state);
+    (done(state) ? late_s : early_s) = middle_s;
   }
+  if (done(stepper.current_state())) stepper.calc_state(late_s, state);
   refill.stop_pa = std::min(state[0], highest_pa);
   refill.on_s = input.duty * late_s;
   refill.energy_j = state[2];

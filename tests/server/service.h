@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "server/http.h"
 #include "tests/server/workbench.h"
@@ -49,6 +50,9 @@ inline api::Json JsonOf(const std::string& text) {
   auto parsed = api::ParseJson(text);
   return std::holds_alternative<api::Json>(parsed) ? std::get<api::Json>(parsed) : api::Json();
 }
+
+// The client waits for the end of the connection where an answer has no body, a 304, say.
+inline const std::pair<const std::string, std::string> kClose{"Connection", "close"};
 
 }  // namespace plenum::server
 

@@ -61,20 +61,20 @@ void Compare(const Problem& problem, Tally& tally) {
 
 TEST(DirectPumpSearch, ListsWhatEnumerationLists) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (int seed = 1; seed <= Draws(100); ++seed) {
     SCOPED_TRACE(seed);
     Compare(Drawn(seed), tally);
   }
-  EXPECT_GT(tally.feasible, 30);
-  EXPECT_GT(tally.infeasible, 5);
-  EXPECT_GT(tally.designs, 150);
+  EXPECT_GT(tally.feasible, Draws(30));
+  EXPECT_GT(tally.infeasible, Draws(5));
+  EXPECT_GT(tally.designs, Draws(150));
 }
 
 TEST(DirectPumpSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
   constexpr optimizer::Objective kObjectives[] = {
       {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.5}};
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (int seed = 1; seed <= Draws(40); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(200 + seed);
     problem.objective = kObjectives[seed % 4];
@@ -86,7 +86,7 @@ TEST(DirectPumpSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
     if (seed % 3 == 0) problem.mass_max_kg = 1.2 * all.designs[0].mass_kg + 0.3;
     Compare(problem, tally);
   }
-  EXPECT_GT(tally.feasible, 10);
+  EXPECT_GT(tally.feasible, Draws(10));
 }
 
 TEST(DirectPumpSearch, GroupsOneAfterAnother) {
@@ -124,19 +124,19 @@ Problem WithOwnPumps(Problem problem, optimizer::PumpFeed feed) {
 
 TEST(DirectPumpSearch, PumpsOfEachGroup) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (int seed = 1; seed <= Draws(24); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = WithOwnPumps(Drawn(300 + seed, 2), optimizer::PumpFeed::kPerGroup);
     problem.simultaneous = seed % 2 == 0;
     problem.limits.batteries = 2;
     Compare(problem, tally);
   }
-  EXPECT_GT(tally.feasible, 6);
+  EXPECT_GT(tally.feasible, Draws(6));
 }
 
 TEST(DirectPumpSearch, PumpsOfEachActuator) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+  for (int seed = 1; seed <= Draws(48); ++seed) {
     SCOPED_TRACE(seed);
     const int groups = seed % 3 == 0 ? 2 : 1;
     Problem problem = WithOwnPumps(Drawn(600 + seed, groups), optimizer::PumpFeed::kPerActuator);
@@ -144,7 +144,7 @@ TEST(DirectPumpSearch, PumpsOfEachActuator) {
     problem.limits.batteries = 2;
     Compare(problem, tally);
   }
-  EXPECT_GT(tally.feasible, 12);
+  EXPECT_GT(tally.feasible, Draws(12));
 }
 
 // A pump of each of two groups of one actuator is a pump of each actuator but for the valve, and a

@@ -71,7 +71,7 @@ TEST(VacuumSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
   constexpr optimizer::Objective kObjectives[] = {
       {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.5}};
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (int seed = 1; seed <= Draws(16); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(300 + seed, {kReservoir, kDirect});
     problem.objective = kObjectives[seed % 4];
@@ -80,19 +80,19 @@ TEST(VacuumSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
     if (seed % 3 == 0) problem.mass_max_kg = 1.2 * all.designs[0].mass_kg + 0.3;
     Compare(problem, tally);
   }
-  EXPECT_GT(tally.feasible, 5);
+  EXPECT_GT(tally.feasible, Draws(5));
 }
 
 TEST(VacuumSearch, GroupsAtOnceAndOneAfterAnother) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (int seed = 1; seed <= Draws(12); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(400 + seed, {kReservoir}, 2, seed % 2 == 0);
     problem.limits.batteries = problem.limits.compressors = 1;
     problem.parts.tubing.resize(1);
     Compare(problem, tally);
   }
-  EXPECT_GT(tally.feasible, 3);
+  EXPECT_GT(tally.feasible, Draws(3));
 }
 
 TEST(VacuumSearch, LooserIsNeverWorse) {

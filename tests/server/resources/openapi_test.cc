@@ -238,12 +238,12 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   Get("/v1/parts", "?limit=0", 422);
   Get("/v1/parts", "?revision=1000000", 404);
   const auto list_tag = client_.Get("/v1/parts?limit=3")->get_header_value("ETag");
-  Get("/v1/parts", "?limit=3", 304, {{"If-None-Match", list_tag}});
+  Get("/v1/parts", "?limit=3", 304, {{"If-None-Match", list_tag}, kClose});
   Get(part, "", 200, {}, id);
   Get(part, "", 404, {}, "none");
   Get(part, "?revision=x", 422, {}, id);
   const auto tag = client_.Get("/v1/parts/" + id)->get_header_value("ETag");
-  Get(part, "", 304, {{"If-None-Match", tag}}, id);
+  Get(part, "", 304, {{"If-None-Match", tag}, kClose}, id);
   Get(part + "/protocol", "?sampling_hz=20", 200, {}, id);
   Get(part + "/protocol", "", 404, {}, "none");
   Get(part + "/protocol", "?bottle_l=0", 422, {}, id);
@@ -320,7 +320,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   std::filesystem::rename(catalog, catalog.string() + ".away");
   Get("/readyz", "", 503);
   std::filesystem::rename(catalog.string() + ".away", catalog);
-  Get("/", "", 304, {{"If-None-Match", client_.Get("/")->get_header_value("ETag")}});
+  Get("/", "", 304, {{"If-None-Match", client_.Get("/")->get_header_value("ETag")}, kClose});
   const auto page = client_.Get("/")->body;
   const auto at = page.find("/assets/");
   ASSERT_NE(at, std::string::npos);
@@ -329,7 +329,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   Get("/docs", "", 308);
   const std::string docs = "/docs/{path}";
   Get(docs, "", 200, {}, "index.html");
-  Get(docs, "", 304, {{"If-None-Match", client_.Get("/docs/")->get_header_value("ETag")}});
+  Get(docs, "", 304, {{"If-None-Match", client_.Get("/docs/")->get_header_value("ETag")}, kClose});
   Get(docs, "", 404, {}, "none.html");
 
   // With a queue.
@@ -362,7 +362,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
       for (std::string ended = one;;) {
         client.Get(ended + "/events");  // until the job has ended
         const auto etag = client.Get(ended)->get_header_value("ETag");
-        Check(client.Get(ended, {{"If-None-Match", etag}}), "get", path + "/{id}", 304);
+        Check(client.Get(ended, {{"If-None-Match", etag}, kClose}), "get", path + "/{id}", 304);
         if (JsonOf(client.Get(ended)->body)["status"] == "cancelled") {
           again(ended, 202);
           client.Get(ended + "/events");
