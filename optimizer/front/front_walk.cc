@@ -117,7 +117,7 @@ class Walker {
       return;
     }
     node->sizing.reset();
-    const Leaf leaf = *sized;
+    const Leaf& leaf = *sized;
     const double bound = std::max(node->box.bound, leaf.lower_bound);
     if (leaf.status == LeafStatus::kUndecided && clock_.Stopped()) {
       Push(std::move(node), bound);
