@@ -10,6 +10,7 @@
 #include "api/measure/curves.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
+#include "tests/api/measure/read_dataset.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {
@@ -73,15 +74,6 @@ Json Syringe() {
     run["pressure_kpa_gauge"].push_back(100.0 * 400.0 / volume_ml - 100.0 + noise_kpa(random));
   }
   return document;
-}
-
-Dataset Read(const Json& document) {
-  const auto parsed = ParseMeasurement(document);
-  if (const auto* errors = std::get_if<Errors>(&parsed)) {
-    for (const Error& error : *errors) ADD_FAILURE() << error.pointer << ": " << error.detail;
-    return {};
-  }
-  return std::get<Dataset>(parsed);
 }
 
 TEST(DrivingDocument, IsReadInSi) {

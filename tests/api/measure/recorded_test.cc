@@ -7,6 +7,7 @@
 #include "api/measure/curves.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
+#include "tests/api/measure/read_dataset.h"
 #include "tests/api/support.h"
 #include "tests/support/bench/bench_json.h"
 
@@ -39,15 +40,6 @@ Json Vessel() {
     run["pressure_kpa_gauge"].push_back(0.5 * std::round(2.0 * kpa));
   }
   return document;
-}
-
-Dataset Read(const Json& document) {
-  const auto parsed = ParseMeasurement(document);
-  if (const auto* errors = std::get_if<Errors>(&parsed)) {
-    for (const Error& error : *errors) ADD_FAILURE() << error.pointer << ": " << error.detail;
-    return {};
-  }
-  return std::get<Dataset>(parsed);
 }
 
 TEST(RecordedDocument, IsReadInSi) {

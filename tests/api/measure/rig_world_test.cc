@@ -9,6 +9,7 @@
 #include "api/measure/measurement.h"
 #include "calibration/fit/forward.h"
 #include "calibration/values/effect_sets.h"
+#include "tests/api/measure/read_dataset.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {
@@ -36,15 +37,6 @@ Json Litre(const Json& more) {
     document["runs"][0]["pressure_kpa_gauge"].push_back(0.01 * i);
   }
   return document;
-}
-
-Dataset Read(const Json& document) {
-  const auto parsed = ParseMeasurement(document);
-  if (const auto* errors = std::get_if<Errors>(&parsed)) {
-    for (const Error& error : *errors) ADD_FAILURE() << error.pointer << ": " << error.detail;
-    return {};
-  }
-  return std::get<Dataset>(parsed);
 }
 
 Json RunOf(const char* text) { return {{"runs", Json::array({Json::parse(text)})}}; }
