@@ -33,6 +33,14 @@ inline bool Accepts(const optimizer::Problem& problem, const optimizer::Answer& 
                      [](const verify::Check& check) { return check.ok; });
 }
 
+// Whether it refuses the answer with its first design changed.
+template <typename Change>
+bool RefusesFirst(const optimizer::Problem& problem, optimizer::Answer answer,
+                  const Change& change) {
+  change(answer.designs.front());
+  return !Accepts(problem, answer);
+}
+
 // Every check of `verify` with brute force.
 inline void ExpectVerified(const optimizer::Problem& problem, const optimizer::Answer& answer) {
   for (const verify::Check& check :

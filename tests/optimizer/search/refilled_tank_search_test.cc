@@ -141,11 +141,7 @@ TEST(RefilledTankSearch, TheVerifierRefusesWhatIsTamperedWith) {
     const Answer answer = Recorded(problem);
     if (answer.designs.empty() || *answer.designs.front().settings.compressor_duty == 0.0) continue;
     ASSERT_TRUE(Accepts(problem, answer));
-    const auto refused = [&](const auto& change) {
-      Answer changed = answer;
-      change(changed.designs.front());
-      return !Accepts(problem, changed);
-    };
+    const auto refused = [&](const auto& change) { return RefusesFirst(problem, answer, change); };
     EXPECT_TRUE(refused([](Design& d) { *d.settings.tank_fill_pa *= 1.01; }));
     EXPECT_TRUE(refused([](Design& d) { *d.settings.pump_stop_pa *= 1.01; }));
     EXPECT_TRUE(refused([](Design& d) { d.settings.pump_stop_pa.reset(); }));

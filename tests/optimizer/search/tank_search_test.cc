@@ -179,11 +179,7 @@ TEST(TankSearch, TheVerifierRefusesWhatIsTamperedWith) {
     const Answer answer = Recorded(problem);
     if (answer.designs.empty()) continue;
     ASSERT_TRUE(Accepts(problem, answer));
-    const auto refused = [&](const auto& change) {
-      Answer changed = answer;
-      change(changed.designs.front());
-      return !Accepts(problem, changed);
-    };
+    const auto refused = [&](const auto& change) { return RefusesFirst(problem, answer, change); };
     const auto tank = [](Design& design) -> optimizer::Choice& {
       return *std::find_if(design.parts.begin(), design.parts.end(),
                            [](const auto& row) { return row.family == optimizer::Family::kTank; });

@@ -126,11 +126,7 @@ TEST(VacuumSearch, TheVerifierRefusesWhatIsTamperedWith) {
     const Answer answer = Recorded(problem);
     if (answer.designs.empty()) continue;
     ASSERT_TRUE(Accepts(problem, answer));
-    const auto refused = [&](const auto& change) {
-      Answer changed = answer;
-      change(changed.designs.front());
-      return !Accepts(problem, changed);
-    };
+    const auto refused = [&](const auto& change) { return RefusesFirst(problem, answer, change); };
     // A deeper or a shallower rail than the strokes were told for.
     EXPECT_TRUE(refused([](Design& d) { d.settings.source_pressure_pa *= 1.01; }));
     EXPECT_TRUE(refused([](Design& d) { d.settings.source_pressure_pa *= 0.99; }));
