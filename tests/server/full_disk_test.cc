@@ -55,7 +55,7 @@ void ExpectWhole(const std::string& catalog, int acknowledged) {
 TEST(FullDisk, ALimitOnFilesIsAnsweredWith507AndLeavesThingsWhole) {
   const Workbench bench;
   const auto size = std::filesystem::file_size(bench.catalog());
-  ServeProcess serve(bench.catalog(), size + (200 << 10));
+  ServeProcess serve(bench.catalog(), {.file_bytes_max = size + (200 << 10)});
   httplib::Client client("127.0.0.1", serve.port());
   client.set_tcp_nodelay(true);
   const auto [acknowledged, refused] = AddUntilRefused(client);

@@ -5,12 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "tests/support/places.h"
@@ -26,6 +28,16 @@ int EndOf(pid_t pid, int signal) {
   int status = 0;
   waitpid(pid, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+// What stands in a file up to its first line's end, waited for as long as a busy machine takes.
+std::string FirstLine(const fs::path& path) {
+  for (int i = 0; i < 6000; ++i) {
+    const std::string text = ReadAll(path);
+    if (const auto end = text.find('\n'); end != std::string::npos) return text.substr(0, end);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return {};
 }
 
 }  // namespace
@@ -60,25 +72,28 @@ Workbench::Outcome Workbench::Run(const std::string& arguments, const std::strin
           ReadAll(Path("stderr"))};
 }
 
-ServeProcess::ServeProcess(const std::string& catalog, unsigned long file_bytes_max) {
+ServeProcess::ServeProcess(const std::string& catalog, const Options& options) {
+  const std::string& log = options.log;
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   pid_ = fork();
   if (pid_ == 0) {
-    dup2(pipe_ends[1], STDERR_FILENO);
+    const bool to_pipe = log.empty();
+    dup2(to_pipe ? pipe_ends[1] : open(log.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
     pid_ = getpid();
-    if (file_bytes_max > 0) LimitFiles(file_bytes_max);
-    execl(PLENUM_BINARY, "plenum", "serve", "--port", "0", "--catalog", catalog.c_str(), nullptr);
+    if (options.file_bytes_max > 0) LimitFiles(options.file_bytes_max);
+    execl(PLENUM_BINARY, "plenum", "serve", "--port", "0", "--catalog", catalog.c_str(),
+          options.is_known_elsewhere ? "--allow-host=x.example" : nullptr, nullptr);
     _exit(127);
   }
   close(pipe_ends[1]);
   FILE* err = fdopen(pipe_ends[0], "r");
   char line[256] = {};
-  if (std::fgets(line, sizeof line, err) == nullptr ||
-      std::sscanf(line, "plenum listens at http://127.0.0.1:%d/", &port_) != 1) {
-    throw std::runtime_error(std::string("serve did not start: ") + line);
-  }
+  if (log.empty() && std::fgets(line, sizeof line, err) == nullptr) line[0] = 0;
   std::fclose(err);
+  const std::string first = log.empty() ? line : FirstLine(log);
+  if (std::sscanf(first.c_str(), "plenum listens at http://127.0.0.1:%d/", &port_) != 1)
+    throw std::runtime_error("serve did not start: " + first);
 }
 
 void ServeProcess::LimitFiles(unsigned long bytes_max) const {

@@ -38,8 +38,13 @@ class Workbench {
 // `plenum serve --port 0` as a process of its own.
 class ServeProcess {
  public:
-  // `file_bytes_max` limits the size of the files that it may write (RLIMIT_FSIZE); 0: no limit.
-  explicit ServeProcess(const std::string& catalog, unsigned long file_bytes_max = 0);
+  struct Options {
+    unsigned long file_bytes_max = 0;  // of the files that it may write (RLIMIT_FSIZE); 0: any
+    std::string log = {};              // the file that takes what it prints; empty: none does
+    bool is_known_elsewhere = false;   // as x.example: whoever asks needs a token
+  };
+  explicit ServeProcess(const std::string& catalog) : ServeProcess(catalog, Options{}) {}
+  ServeProcess(const std::string& catalog, const Options& options);
   ~ServeProcess();  // kills it if it still runs
   int port() const { return port_; }
   void LimitFiles(unsigned long bytes_max) const;

@@ -6,6 +6,8 @@
 #include <httplib.h>
 #include <sys/stat.h>
 
+#include <csignal>
+
 #include "server/call/service_limits.h"
 #include "server/wire/request_frame.h"
 #include "tests/server/raw.h"
@@ -376,19 +378,13 @@ TEST(Log, HasALineForEachRequestAndNoSecrets) {
   std::string token = bench.Run("token create me").out;
   token.pop_back();  // the end of the line
   const std::string log = bench.Path("log");
-  const std::string serve = "timeout -s INT 2 '" PLENUM_BINARY "' serve --port 0 --catalog '" +
-                            bench.catalog() + "' --allow-host x.example 2>'" + log + "' &";
-  ASSERT_EQ(std::system(serve.c_str()), 0);
-  std::string first;
-  for (int i = 0; i < 100 && first.find('\n') == std::string::npos; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    first = ReadAll(log);
-  }
-  httplib::Client client("127.0.0.1", std::atoi(first.c_str() + first.rfind(':') + 1));
+  ServeProcess serve(bench.catalog(), {.log = log, .is_known_elsewhere = true});
+  httplib::Client client("127.0.0.1", serve.port());
   const auto answer =
       client.Get("/v1/parts?manufacturer=secret", {{"Authorization", "Bearer " + token}});
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(serve.End(SIGINT), 0);  // with its last line written
   const std::string lines = ReadAll(log);
   EXPECT_THAT(lines, HasSubstr("\"route\":\"/v1/parts\",\"status\":200"));
   EXPECT_THAT(lines, HasSubstr("\"user\":\"me\""));
