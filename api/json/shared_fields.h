@@ -15,6 +15,7 @@ inline constexpr int kCountMax = 64;
 inline constexpr double kExpansionMax = 1000.0;       // of an actuator's volume
 inline constexpr double kGaugeMaxKpa = 5e4;           // sources, parts
 inline constexpr double kOperatingGaugeMaxKpa = 1e4;  // actuators
+inline constexpr double kRigGaugeMaxKpa = 1e5;        // rigs, whose gas may be dense
 
 inline Range FrequencyRange() { return {1e-4, 100.0}; }
 inline Range TubeLengthRange() { return {0.01, 100.0}; }

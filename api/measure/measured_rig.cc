@@ -184,7 +184,7 @@ void ReadSupply(Reader& rig, MeasuredRig& part) {
   }
   if (const auto kpa = supply->OptionalNumber(
           "source_pressure_kpa_gauge",
-          kind == "regulated" ? PressuresAbove0(part.ambient) : Range{0, kGaugeMaxKpa}))
+          kind == "regulated" ? PressuresAbove0(part.ambient) : Range{0, kRigGaugeMaxKpa}))
     part.source_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
   if (!kind.empty()) supply->Finish();
 }
@@ -196,7 +196,7 @@ calibration::Sensor ReadSensor(Reader& rig, const model::Ambient& ambient) {
   if (!reader) return sensor;
   if (reader->Has("range_kpa_gauge")) {
     const std::vector<double> ends =
-        reader->Numbers("range_kpa_gauge", 2, {kSensorLowestKpa, kGaugeMaxKpa});
+        reader->Numbers("range_kpa_gauge", 2, {kSensorLowestKpa, kRigGaugeMaxKpa});
     if (ends.size() != 2 || !(ends[0] < ends[1])) {
       reader->Fail("range_kpa_gauge", "must be two pressures, the lower one first");
     } else {
@@ -253,7 +253,7 @@ void AddOnce(Error error, Errors& errors) {
 }  // namespace
 
 Range PressuresAbove0(const model::Ambient& ambient) {
-  return Above(-ambient.pressure_pa / kPaPerKpa, kGaugeMaxKpa);
+  return Above(-ambient.pressure_pa / kPaPerKpa, kRigGaugeMaxKpa);
 }
 
 void AllowRemarks(Reader& reader) {

@@ -110,14 +110,14 @@ void ReadChannels(Reader& owner, Run& run) {
         std::all_of(channel.begin(), channel.end(), [](double value) { return std::isnan(value); });
     if (silent) channel.clear();
   };
-  const Range pressure = Above(lowest_kpa, kGaugeMaxKpa);
+  const Range pressure = Above(lowest_kpa, kRigGaugeMaxKpa);
   read("source_pressure_kpa_gauge", pressure, gauge, run.channels.source_pressure_pa);
   read("inlet_pressure_kpa_gauge", pressure, gauge, run.channels.inlet_pressure_pa);
   read("temperature_k", {50, 2000}, std::identity(), run.channels.temperature_k);
   read("volume_ml", Above(0, 1e9), M3FromMl, run.channels.volume_m3);
   read("flow_l_per_min_anr", {-1e6, 1e6}, M3PerSFromLPerMin, run.channels.flow_m3_per_s);
   read("valve_opening", {0, 1}, std::identity(), run.channels.valve_opening);
-  read("source_setpoint_kpa_gauge", {0, kGaugeMaxKpa}, gauge, run.channels.source_setpoint_pa);
+  read("source_setpoint_kpa_gauge", {0, kRigGaugeMaxKpa}, gauge, run.channels.source_setpoint_pa);
   channels->Finish();
 }
 
@@ -161,7 +161,7 @@ void ReadInitial(Reader& owner, Run& run) {
   if (!initial) return;
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
   if (const auto kpa =
-          initial->OptionalNumber("pressure_kpa_gauge", Above(lowest_kpa, kGaugeMaxKpa)))
+          initial->OptionalNumber("pressure_kpa_gauge", Above(lowest_kpa, kRigGaugeMaxKpa)))
     run.initial_pressure_pa = PaFromKpaGauge(*kpa, run.ambient);
   run.initial_temperature_k = initial->OptionalNumber("temperature_k", {150, 600});
   initial->Finish();
@@ -279,7 +279,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   const Range pressures = PressuresAbove0(run.ambient);
   const auto source_kpa =
       reader.OptionalNumber("source_pressure_kpa_gauge",
-                            run.supply == Supply::kRegulated ? pressures : Range{0, kGaugeMaxKpa});
+                            run.supply == Supply::kRegulated ? pressures : Range{0, kRigGaugeMaxKpa});
   const bool has_source = source_kpa || rig.source_pressure_pa;
   run.source_pressure_pa = source_kpa ? PaFromKpaGauge(*source_kpa, run.ambient)
                                       : rig.source_pressure_pa.value_or(run.ambient.pressure_pa);
@@ -291,7 +291,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.t_s = ReadSeries(reader, "t_s", {-kTimeMaxS, kTimeMaxS}, false, kReadingsMin);
   CheckRising(reader, run.t_s);
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
-  run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge", {1.5 * lowest_kpa, kGaugeMaxKpa},
+  run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge", {1.5 * lowest_kpa, kRigGaugeMaxKpa},
                                     true, kReadingsMin),
                          [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
   CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());

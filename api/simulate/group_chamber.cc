@@ -31,7 +31,7 @@ void ReadTableOf(Reader& group, const model::Ambient& ambient, double operating_
   const auto stated = group.OptionalNumber("rest_volume_ml", kRestVolumeMl);
   const double lowest = -ambient.pressure_pa / kPaPerKpa;
   const Table table = ReadTable(group, "pressure_volume", 2, "pressure_kpa_gauge",
-                                Above(lowest, kGaugeMaxKpa), "volume_ml", kRestVolumeMl, +1);
+                                Above(lowest, kRigGaugeMaxKpa), "volume_ml", kRestVolumeMl, +1);
   // Reported where they are read.
   if (!table.valid || std::isnan(chamber.operating_pressure_pa)) return;
   if (table.x.front() > 0 || table.x.back() < operating_kpa) {
@@ -75,13 +75,13 @@ void ReadEvacuated(Reader& group, const model::Ambient& ambient, double operatin
 }  // namespace
 
 model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum vacuum,
-                           std::optional<model::Chamber>* rod_side) {
+                           std::optional<model::Chamber>* rod_side, double operating_max_kpa) {
   model::Chamber chamber;
   chamber.ambient_pressure_pa = ambient.pressure_pa;
   const double deepest_kpa = DeepestKpaGauge(ambient);
   const double operating = group.Number(
       "operating_pressure_kpa_gauge",
-      {vacuum == Vacuum::kAllowed ? std::min(deepest_kpa, -1.0) : 1.0, kOperatingGaugeMaxKpa});
+      {vacuum == Vacuum::kAllowed ? std::min(deepest_kpa, -1.0) : 1.0, operating_max_kpa});
   if (std::abs(operating) < 1.0)
     group.Fail("operating_pressure_kpa_gauge",
                "must be at least 1, or at most -1 for an actuator that is evacuated, not " +

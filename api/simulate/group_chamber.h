@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "api/json/reader.h"
+#include "api/json/shared_fields.h"
 #include "model/physics/air.h"
 #include "model/physics/chamber.h"
 
@@ -25,7 +26,8 @@ enum class Vacuum { kRefused, kAllowed };
 // that is null it is an error.
 model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient,
                            Vacuum vacuum = Vacuum::kRefused,
-                           std::optional<model::Chamber>* rod_side = nullptr);
+                           std::optional<model::Chamber>* rod_side = nullptr,
+                           double operating_max_kpa = kRigGaugeMaxKpa);
 
 }  // namespace plenum::api
 

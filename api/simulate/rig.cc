@@ -87,7 +87,7 @@ struct Surroundings {
   Side side;
 
   Range Pressures() const {
-    return side == Side::kVacuum ? Range{DeepestKpaGauge(ambient), 0} : Range{0, kGaugeMaxKpa};
+    return side == Side::kVacuum ? Range{DeepestKpaGauge(ambient), 0} : Range{0, kRigGaugeMaxKpa};
   }
   double Pa(double kpa_gauge) const { return PaFromKpaGauge(kpa_gauge, ambient, side); }
 };

@@ -41,7 +41,7 @@ Initial ReadInitial(Reader& request, const model::Ambient& ambient, Side side) {
   if (!reader) return {.pressure_pa = ambient.pressure_pa};
   const double lowest_kpa = -ambient.pressure_pa / kPaPerKpa;
   const Range pressures = side == Side::kVacuum ? Range{DeepestKpaGauge(ambient), 0}
-                                                : Above(lowest_kpa, kOperatingGaugeMaxKpa);
+                                                : Above(lowest_kpa, kRigGaugeMaxKpa);
   const double gauge = reader->Number("pressure_kpa_gauge", pressures, 0.0);
   const std::optional<double> temperature_k = reader->OptionalNumber("temperature_k", {200, 400});
   reader->Finish();
@@ -140,6 +140,7 @@ Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalo
     group.initial_pressure_pa = initial.pressure_pa;
     group.initial_temperature_k = initial.temperature_k;
   }
+  simulation.rig.dense = model::IsDense(simulation.rig);
   const Fractions fractions = ReadFractions(reader);
   simulation.options.rise_fraction = fractions.rise;
   simulation.options.fall_fraction = fractions.fall;

@@ -289,6 +289,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   const double shift_pa = AmbientShift(run, state);
   rig.ambient = {run.ambient.pressure_pa + shift_pa, run.ambient.temperature_k};
   rig.gas = run.gas;
+  rig.dense = driving_[index].dense;
   rig.source = SourceOf(index, state);
   if (Evacuates(run))
     rig.exhaust_pressure_pa =

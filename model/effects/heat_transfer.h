@@ -23,13 +23,12 @@ class HeatTransfer final : public EffectUnit<T> {
     heat_conductance_w_per_k_ =
         setup.operating_pressure_pa * setup.OperatingVolume() /
         ((setup.heat_capacity_ratio - 1.0) * setup.ambient_temperature_k * time_constant_s_);
-    x[0] = m.pressure_pa * m.volume_m3 / kReferencePressurePa * kReferenceTemperatureK /
-           setup.initial_temperature_k;
+    x[0] = setup.Content(m.pressure_pa, m.volume_m3, setup.initial_temperature_k);
     size[0] = ValueOf(setup.operating_pressure_pa * setup.OperatingVolume()) / kReferencePressurePa;
   }
   void AfterVolume(const GroupSetup<T>& setup, const T* x, Moment<T>& m) const override {
-    m.temperature_k =
-        m.pressure_pa * m.volume_m3 / (kReferencePressurePa * x[0]) * kReferenceTemperatureK;
+    m.temperature_k = setup.Temperature(m.pressure_pa, m.volume_m3, x[0]);
+    m.content_m3 = x[0];
     m.tail_temperature_k = m.temperature_k;
     m.heat_capacity_ratio = setup.heat_capacity_ratio;
     m.wall_heat_w = heat_conductance_w_per_k_ * (setup.ambient_temperature_k - m.temperature_k);

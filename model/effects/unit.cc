@@ -48,6 +48,20 @@ T GroupSetup<T>::OperatingVolume() const {
   return Law(operating_pressure_pa);
 }
 
+template <class T>
+T GroupSetup<T>::Content(const T& pressure_pa, const T& volume_m3, const T& temperature_k) const {
+  constexpr double kPerContent = kReferenceTemperatureK / kReferencePressurePa;
+  if (dense) return volume_m3 / dense->Volume(pressure_pa, temperature_k) * kPerContent;
+  return pressure_pa * volume_m3 / kReferencePressurePa * kReferenceTemperatureK / temperature_k;
+}
+
+template <class T>
+T GroupSetup<T>::Temperature(const T& pressure_pa, const T& volume_m3, const T& content_m3) const {
+  constexpr double kPerContent = kReferenceTemperatureK / kReferencePressurePa;
+  if (dense) return dense->Temperature(pressure_pa, volume_m3 / content_m3 * kPerContent);
+  return pressure_pa * volume_m3 / (kReferencePressurePa * content_m3) * kReferenceTemperatureK;
+}
+
 template struct GroupSetup<double>;
 template struct GroupSetup<Dual>;
 template struct GroupSetup<WideDual>;

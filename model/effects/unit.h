@@ -8,14 +8,16 @@
 // Then the pressure follows from the balance of one volume,
 //   dp/dt = [κ·(P0/T0)·(T_in·Q_in − T·Q_out) + (κ−1)·Q_w − κ·p·V̇] / (V + κ·p·V'),
 // with κ = 1 and T = T_in = T_a isothermal, κ = γ with the energy balance; V' is the part of the
-// volume that goes with the pressure at once, V̇ the rate of the rest. Sources: physics of an
-// expanding chamber with enthalpy flows, ISO 6358 for the flows.
+// volume that goes with the pressure at once, V̇ the rate of the rest. Of dense gas:
+// simulate/dense_balance.h. Sources: physics of an expanding chamber with enthalpy flows, ISO 6358
+// for the flows.
 #ifndef PLENUM_MODEL_EFFECTS_UNIT_H_
 #define PLENUM_MODEL_EFFECTS_UNIT_H_
 
 #include <vector>
 
 #include "model/effects/effect.h"
+#include "model/flow/dense_gas.h"
 #include "model/flow/simulate_line.h"
 #include "model/physics/air.h"
 #include "model/physics/monotone_curve.h"
@@ -35,6 +37,7 @@ struct GroupSetup {
   T source_pressure_pa;  // at the start; the ambient pressure without a source
   T flow_factor;         // √(T0/T_a) and the gas
   double heat_capacity_ratio = 1.4;
+  const DenseGas* dense = nullptr;  // the gas, where it is too dense to be ideal
   double reference_density_kg_per_m3 = kReferenceDensityKgPerM3,
          viscosity_pa_s = ViscosityPaS(Gas::kAir);
   std::vector<LineElement<T>> fill, exhaust;  // in the order crossed, flow_factor included
@@ -47,6 +50,9 @@ struct GroupSetup {
   T QuasiStaticSlope(const T& pressure_pa) const;
   // V(p_op) of the actuator when it is not blocked.
   T OperatingVolume() const;
+  // m³ ANR of gas at a state, and its temperature where that is known.
+  T Content(const T& pressure_pa, const T& volume_m3, const T& temperature_k) const;
+  T Temperature(const T& pressure_pa, const T& volume_m3, const T& content_m3) const;
   // Pa·m³ per m³ ANR at the ambient temperature.
   T ContentRate() const {
     return kReferencePressurePa * ambient_temperature_k / kReferenceTemperatureK;
@@ -70,6 +76,7 @@ struct Moment {
   T volume_slope_m3_per_pa = T(0.0);  // V'
   T volume_rate_m3_per_s = T(0.0);    // V̇
   T temperature_k, tail_temperature_k;
+  T content_m3 = T(0.0);             // ANR; of dense gas
   double heat_capacity_ratio = 1.0;  // κ
   T wall_heat_w = T(0.0);
   T line_factor = T(1.0);                         // on the conductance of the line, both ways

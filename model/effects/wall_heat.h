@@ -29,16 +29,15 @@ class WallHeat final : public EffectUnit<T> {
                                ((setup.heat_capacity_ratio - 1.0) * setup.ambient_temperature_k);
     heat_conductance_w_per_k_ = capacity_j_per_k / time_constant_s_;
     wall_j_per_k_ = capacity_ratio_ * capacity_j_per_k;
-    x[0] = m.pressure_pa * m.volume_m3 / kReferencePressurePa * kReferenceTemperatureK /
-           setup.initial_temperature_k;
+    x[0] = setup.Content(m.pressure_pa, m.volume_m3, setup.initial_temperature_k);
     x[1] = setup.ambient_temperature_k +
            start_share_ * (setup.initial_temperature_k - setup.ambient_temperature_k);
     size[0] = ValueOf(setup.operating_pressure_pa * setup.OperatingVolume()) / kReferencePressurePa;
     size[1] = ValueOf(setup.ambient_temperature_k);
   }
   void AfterVolume(const GroupSetup<T>& setup, const T* x, Moment<T>& m) const override {
-    m.temperature_k =
-        m.pressure_pa * m.volume_m3 / (kReferencePressurePa * x[0]) * kReferenceTemperatureK;
+    m.temperature_k = setup.Temperature(m.pressure_pa, m.volume_m3, x[0]);
+    m.content_m3 = x[0];
     m.tail_temperature_k = m.temperature_k;
     m.heat_capacity_ratio = setup.heat_capacity_ratio;
     m.wall_heat_w = heat_conductance_w_per_k_ * (x[1] - m.temperature_k);

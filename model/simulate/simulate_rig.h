@@ -93,10 +93,14 @@ using Source = std::variant<NoSource, RegulatedSource, ReservoirSource, DrivenSo
 struct Rig {
   Ambient ambient;
   Gas gas = Gas::kAir;
+  bool dense = false;  // too dense to be ideal (flow/dense_gas.h): not of evacuated actuators
   double exhaust_pressure_pa = 0.0;  // what lines open into when they deflate; 0: the ambient's
   Source source;
   std::vector<GroupRig> groups;
 };
+
+// Whether it holds gas from kDenseFromPa (flow/dense_gas.h) on.
+bool IsDense(const Rig& rig);
 
 // Whether what moves by itself, the groups' valves or the source (`driven`), jumps nowhere, nor its
 // rate in the equations.

@@ -6,8 +6,9 @@
 #include <variant>
 
 #include "model/effects/registry.h"
+#include "model/integrate/pressure_at.h"
+#include "model/simulate/dense_balance.h"
 #include "model/simulate/inlet_pressure.h"
-#include "model/simulate/pressure_at.h"
 
 namespace plenum::model {
 namespace {
@@ -105,6 +106,7 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
   setup.source_pressure_pa = source_initial_pa_;
   setup.flow_factor = factor;
   setup.heat_capacity_ratio = HeatCapacityRatio(rig_.gas);
+  setup.dense = dense_ ? &*dense_ : nullptr;
   setup.reference_density_kg_per_m3 = ReferenceDensity(rig_.gas);
   setup.viscosity_pa_s = ViscosityPaS(rig_.gas);
   setup.fill = Lifted<T>(rig.fill, factor, lift);
@@ -308,6 +310,8 @@ void System<T>::FillMoment(Group& group, const T& t, const T& source_pa,
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     group.units[u]->AfterVolume(setup, y.data() + group.unit_at[u], m);
   }
+  if (setup.dense && !group.heated)
+    m.content_m3 = setup.Content(m.pressure_pa, m.volume_m3, m.temperature_k);
 }
 
 // The flow of the only open inlet without solving for the node. False where regulator or line may
@@ -367,12 +371,15 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
               ? out.Flow(m.tail_pa, exhaust_pa_, venting.regime)
               : out.ThrottledFlow(venting.share, group.setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
+      if (dense_)
+        m.line_out_m3_per_s *= Thinness(group.setup.dense, m.tail_pa, m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
       outlets_.push_back({&group.lines[kFeed], T(group.count), m.head_pa, i, group.regime[kFeed]});
       if (filling.share > 0.0) {
         m.line_in_m3_per_s =
             filling.share * filling.line->Flow(m.head_pa, m.tail_pa, filling.regime);
+        if (dense_) m.line_in_m3_per_s *= Thinness(group.setup.dense, m.head_pa, ambient_k_);
       }
     } else if (filling.share > 0.0) {
       outlets_.push_back({filling.line, group.count * filling.share, m.tail_pa, i, filling.regime});
@@ -390,11 +397,13 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     if (!solved) node_pa = NodePressure<T>(supply_, outlets_);
     if (supply_.pump) supply_.node_pa = node_pa;
   }
+  const T thinness = dense_ ? Thinness(&*dense_, source_pa, ambient_k_) : T(1.0);
   for (const NodeOutlet<T>& outlet : outlets_) {
     Group& group = groups_[outlet.group];
-    const T flow = solved ? in_series
-                          : outlet.line->Flow(node_pa, outlet.pressure_pa,
-                                              node_at_supply_ ? outlet.regime : Line<T>::kUnknown);
+    T flow = solved ? in_series
+                    : outlet.line->Flow(node_pa, outlet.pressure_pa,
+                                        node_at_supply_ ? outlet.regime : Line<T>::kUnknown);
+    if (dense_) flow *= thinness;
     group.moment.draw_m3_per_s = outlet.copies / group.count * flow;
     if (group.lines[kFeed].empty()) {
       group.moment.line_in_m3_per_s = group.moment.draw_m3_per_s;
@@ -425,14 +434,14 @@ void System<T>::Balance(Group& group, std::span<const T> y, std::span<T> dydt) c
   // Of evacuated actuators the lack of gas, below 0.
   const T gas_pa = m.pressure_pa - line_options_.mirror_pa;
   const T capacity = m.volume_m3 + kappa * gas_pa * m.volume_slope_m3_per_pa;
-  constexpr double kContentPerKelvin = kReferencePressurePa / kReferenceTemperatureK;
   const T heat_in = kContentPerKelvin * ambient_k_ * m.in_m3_per_s;
   const T heat_out = kContentPerKelvin * m.temperature_k * m.out_m3_per_s;
   const T push = kappa * (heat_in - heat_out - gas_pa * m.volume_rate_m3_per_s) +
                  (kappa - 1.0) * m.wall_heat_w;
   const bool possible = capacity > 0.0 && m.volume_m3 > 0.0;
-  m.pressure_rate_pa_per_s =
-      possible ? T(push / capacity) : T(std::numeric_limits<double>::quiet_NaN());
+  m.pressure_rate_pa_per_s = !possible     ? T(std::numeric_limits<double>::quiet_NaN())
+                             : setup.dense ? DenseVolume<T>(setup, m).PressureRate()
+                                           : T(push / capacity);
   dydt[group.at] = m.pressure_rate_pa_per_s;
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     group.units[u]->Rates(setup, m, y.data() + group.unit_at[u], dydt.data() + group.unit_at[u]);
@@ -446,6 +455,8 @@ void System<T>::Balance(Group& group, std::span<const T> y, std::span<T> dydt) c
   if (!group.heated) return;
   account[kEnthalpyIn] = group.count * kappa / (kappa - 1.0) * heat_in;
   account[kEnthalpyOut] = group.count * kappa / (kappa - 1.0) * heat_out;
+  if (setup.dense)
+    DenseVolume<T>(setup, m).Enthalpies(group.count, account[kEnthalpyIn], account[kEnthalpyOut]);
   account[kWallHeat] = group.count * m.wall_heat_w;
   account[kWork] = group.count * m.pressure_pa *
                    (m.volume_rate_m3_per_s + m.volume_slope_m3_per_pa * m.pressure_rate_pa_per_s);
@@ -512,7 +523,8 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
     const Line<T> tube(fill.subspan(group.valve[kFill].count), line_options_);
     if (tube.empty()) return m.tail_pa;
     const auto into = [&](const T& inlet_pa) { return tube.Flow(inlet_pa, m.tail_pa); };
-    return PressureAt<T>(into, m.line_in_m3_per_s / m.line_factor, m.tail_pa, m.head_pa);
+    const T flow = m.line_in_m3_per_s / Thinness(setup.dense, m.head_pa, ambient_k_);
+    return PressureAt<T>(into, flow / m.line_factor, m.tail_pa, m.head_pa);
   }
   if (m.line_out_m3_per_s > 0.0) {
     if (!(group.venting.At(t) < 1.0) && !group.told.turns())
@@ -522,6 +534,7 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
     if (tube.empty()) return m.tail_pa;
     T flow = m.line_out_m3_per_s / m.line_factor;
     if (group.heated) flow /= sqrt(ambient_k_ / m.tail_temperature_k);
+    flow /= Thinness(setup.dense, m.tail_pa, m.tail_temperature_k);
     const auto out = [&](const T& inlet_pa) { return tube.Flow(m.tail_pa, inlet_pa); };
     return PressureAt<T>(out, flow, exhaust_pa_, m.tail_pa);
   }
@@ -532,8 +545,9 @@ template <class T>
 T System<T>::Stored(std::size_t i, std::span<const T> y) const {
   const Group& group = groups_[i];
   const Moment<T>& m = group.moment;
-  T stored = (m.pressure_pa - line_options_.mirror_pa) * m.volume_m3 / kReferencePressurePa *
-             kReferenceTemperatureK / m.temperature_k;
+  T stored = dense_ ? m.content_m3
+                    : T((m.pressure_pa - line_options_.mirror_pa) * m.volume_m3 /
+                        kReferencePressurePa * kReferenceTemperatureK / m.temperature_k);
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     stored += group.units[u]->Stored(group.setup, y.data() + group.unit_at[u]);
   }
@@ -543,6 +557,7 @@ T System<T>::Stored(std::size_t i, std::span<const T> y) const {
 template <class T>
 T System<T>::Energy(std::size_t i) const {
   const Group& group = groups_[i];
+  if (dense_) return group.count * DenseVolume<T>(group.setup, group.moment).Energy();
   return group.count * group.moment.pressure_pa * group.moment.volume_m3 /
          (group.setup.heat_capacity_ratio - 1.0);
 }

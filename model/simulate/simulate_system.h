@@ -172,6 +172,9 @@ class System {
   T PumpPower(const T& source_pa) const;
 
   const Rig& rig_;
+  // Where the gas is too dense to be ideal.
+  const std::optional<DenseGas> dense_ =
+      rig_.dense ? std::optional<DenseGas>(rig_.gas) : std::nullopt;
   T ambient_pa_, ambient_k_, exhaust_pa_;
   T content_rate_;  // Pa·m³ per m³ ANR: P0·T_a/T0
   const RegulatedSource* regulated_ = nullptr;

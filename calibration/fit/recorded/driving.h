@@ -14,6 +14,7 @@ struct DrivingRecords {
   model::TimeCourse source_pa;  // of a supply `measured`, or the setpoint of a regulated one
   model::TimeCourse opening;    // within [0, 1]
   model::TimeCourse volume_m3;
+  bool dense = false;  // pressures were measured at which gas is not ideal (flow/dense_gas.h)
 };
 DrivingRecords DrivingRecordsOf(const Run& run);
 

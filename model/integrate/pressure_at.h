@@ -1,6 +1,6 @@
 // The pressure at which a flow is a given one.
-#ifndef PLENUM_MODEL_SIMULATE_PRESSURE_AT_H_
-#define PLENUM_MODEL_SIMULATE_PRESSURE_AT_H_
+#ifndef PLENUM_MODEL_INTEGRATE_PRESSURE_AT_H_
+#define PLENUM_MODEL_INTEGRATE_PRESSURE_AT_H_
 
 #include <cmath>
 
@@ -28,4 +28,4 @@ T PressureAt(const Flow& flow_at, const T& flow, const T& low_pa, const T& high_
 
 }  // namespace plenum::model
 
-#endif  // PLENUM_MODEL_SIMULATE_PRESSURE_AT_H_
+#endif  // PLENUM_MODEL_INTEGRATE_PRESSURE_AT_H_
