@@ -27,7 +27,7 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan, bench)
                                      : nullptr),
       shared_(MeetingOf(problem) == Meeting::kTogether && !IsPumped(plan.configuration) &&
-              !plan.own_regulators),
+              !plan.own_regulators && !Evacuated(problem)),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)),
       highest_source_pa_(plan.own_regulators ? kUnlimited : HighestSource(problem, plan)),

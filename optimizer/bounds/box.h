@@ -254,7 +254,8 @@ class Bounds {
   std::function<bool(const Amounts&)> useful_;
   std::vector<KnownLines> lines_;  // per group
   std::vector<MadeLine> made_;     // of them
-  // Of several groups. `shared_`: they inflate at once, at the node behind a regulator.
+  // Of several groups. `shared_`: they inflate at once, at the node behind a regulator; the wall's
+  // vacuum has none that would hold any of them back.
   std::unique_ptr<GroupLines> groups_;
   bool shared_;
   bool limited_;              // in amounts

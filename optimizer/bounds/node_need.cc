@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/flow/series.h"
+#include "model/strokes/stroke.h"
 #include "model/strokes/stroke_enclosure.h"
 
 namespace plenum::optimizer {
@@ -134,9 +135,32 @@ double Choked(const Problem& problem, int g, double factor, const Line& line) {
   return problem.groups[g].count * factor * conductance;
 }
 
+// Of an evacuated chamber: the vacuum that does so in time while it stays.
+NodeMeans SteadyVacua(const Problem& problem, int g, model::Gas gas, const Line& line) {
+  constexpr int kHalvings = 14;
+  const model::Series fill = model::MakeSeries(line.fill, FlowFactor(problem, gas));
+  const auto least = [&](double to_pa, double time_s) {
+    if (!std::isfinite(time_s)) return 0.0;
+    double low = to_pa, high = model::MirrorPa(line.chamber) - model::kDeepestVacuumPa;
+    const auto in_time = [&](double source_pa) {
+      return model::FillTime(fill, line.chamber, source_pa, problem.ambient.pressure_pa, to_pa,
+                             problem.ambient.temperature_k) <= time_s;
+    };
+    if (!in_time(high)) return kUnlimited;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (in_time(middle) ? high : low) = middle;
+    }
+    return high;
+  };
+  return {least(RiseTarget(problem, problem.groups[g]), problem.groups[g].rise_time_max_s),
+          least(line.chamber.operating_pressure_pa, InflateWindow(problem, g))};
+}
+
 }  // namespace
 
 NodeMeans LeastNodeMeans(const Problem& problem, int g, model::Gas gas, const Line& line) {
+  if (line.chamber.evacuated) return SteadyVacua(problem, g, gas, line);
   const ActuatorGroup& group = problem.groups[g];
   constexpr double kNearOne = 0.99;  // ratio up to which the line's curve is enclosed
   const Corners corners =

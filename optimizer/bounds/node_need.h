@@ -39,7 +39,8 @@ struct NodeMeans {
 };
 
 // The least means with which a line fills its chamber in time; `line`: single or the corner of a
-// box. 0 where nothing is known.
+// box. 0 where nothing is known. Of evacuated groups, which no bound looks at: the images of the
+// vacua at the node that do it while they stay, +∞ where none does.
 NodeMeans LeastNodeMeans(const Problem& problem, int group, model::Gas gas, const Line& line);
 
 // Where groups draw from.

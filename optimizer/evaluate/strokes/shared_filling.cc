@@ -378,7 +378,7 @@ std::optional<Strokes> FillTogether(const Problem& problem, const Candidate& can
                                     double source_pa) {
   const model::FlowElement regulator[] = {problem.parts.regulators[candidate.regulator.index].flow};
   const bool tables =
-      HasTable(regulator) && std::all_of(candidate.lines.begin(), candidate.lines.end(),
+      !Evacuated(problem) && HasTable(regulator) && std::all_of(candidate.lines.begin(), candidate.lines.end(),
                                          [](const Line* line) { return HasTable(line->fill); });
   if (!tables) return std::nullopt;
   return SharedFilling(problem, candidate, source_pa)

@@ -97,6 +97,52 @@ TEST(WallVacuum, GroupsAtOnceAreAsFastAsAlone) {
               1e-4 * rise_s);
 }
 
+// The wall has vacuum enough for all: of least energy are the same designs at once and in turns,
+// and evaluated they are as listed.
+TEST(WallVacuum, GroupsAtOnceAreSizedAsByThemselves) {
+  Json request = FromWall();
+  const Json group = {{"name", "a"},
+                      {"rest_volume_ml", 65},
+                      {"expansion_ratio", 0.4},
+                      {"operating_pressure_kpa_gauge", -80},
+                      {"tube_length_m", 0.2},
+                      {"rise_time_s_max", 0.5}};
+  Json other = group;
+  other.update({{"name", "b"},
+                {"count", 4},
+                {"rest_volume_ml", 120},
+                {"expansion_ratio", 0.9},
+                {"operating_pressure_kpa_gauge", -73},
+                {"rise_time_s_max", 2}});
+  request["actuators"] = {group, other};
+  request["duty"] = {{"frequency_hz", 0.05}, {"actuations", 20}};
+  request["supply"] = {
+      {"vacuum", {{"configurations", {"mains"}}, {"mains", {{"pressure_kpa_gauge", -90}}}}}};
+  request["objective"] = {{"minimize", "energy_wh"}};
+  request["ranking"] = {{"count", 3}, {"proof", true}};
+  const Json at_once = Answered(request);
+  EXPECT_EQ(at_once["status"], "optimal");
+  EXPECT_EQ(Refusals(at_once), "");
+  request["duty"]["simultaneous"] = false;
+  const Json in_turns = Answered(request);
+  ASSERT_EQ(at_once["designs"].size(), 3u);
+  ASSERT_EQ(in_turns["designs"].size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json& design = at_once["designs"][i];
+    EXPECT_EQ(design["parts"], in_turns["designs"][i]["parts"]);
+    EXPECT_NEAR(design["objective"], in_turns["designs"][i]["objective"], 1e-6);
+    const auto evaluated = Evaluated(at_once["requirements"], design);
+    ASSERT_TRUE(ErrorsOf(evaluated).empty());
+    const Json& again = std::get<Json>(evaluated)["performance"]["groups"];
+    for (int g : {0, 1}) {
+      const double rise_s = design["performance"]["groups"][g]["rise_time_s"];
+      EXPECT_NEAR(rise_s, in_turns["designs"][i]["performance"]["groups"][g]["rise_time_s"],
+                  1e-4 * rise_s);
+      EXPECT_NEAR(rise_s, again[g]["rise_time_s"], 1e-4 * rise_s);
+    }
+  }
+}
+
 TEST(WallVacuum, ADesignFromTheWallIsEvaluatedAsItWasListed) {
   const Json request = FromWall();
   const Json design = Answered(request)["designs"][0];
