@@ -52,6 +52,94 @@ Reach LeastAmount(const Problem& problem, const Demand& demand, TrialSearch& sea
   return reach;
 }
 
+// From the required value of a number to the hardest with which a design is found. Looser is not
+// always easier: a slower cycle holds valves longer.
+class Approach {
+ public:
+  Approach(const Problem& problem, const Requirement& number, TrialSearch& search)
+      : problem_(problem),
+        number_(number),
+        search_(search),
+        sign_(number.required < 0.0 ? -1.0 : 1.0),
+        less_is_harder_(sign_ * number.loosest > sign_ * number.required),
+        hard_(sign_ * number.required),
+        easy_(sign_ * number.loosest),
+        reach_{std::nullopt, number.required} {}
+
+  Reach Run() {
+    if (std::isinf(easy_) && !Reaches(easy_)) return reach_;
+    const double last = easy_;
+    const auto looser = [&](double value) {
+      return less_is_harder_ ? std::min(value * 2.0, last) : std::max(value * 0.5, last);
+    };
+    double value = looser(hard_);
+    while (!Reaches(Rounded(value))) {
+      if (search_.OutOfTime() || value == last) return reach_;
+      hard_ = value;
+      value = looser(value);
+    }
+    Halve();
+    Confirm();
+    reach_.best = sign_ * Outward(easy_, less_is_harder_, number_.whole);
+    return reach_;
+  }
+
+ private:
+  // Whole numbers to the easy side: what a design achieves must still be met by it.
+  double Rounded(double value) const {
+    if (!number_.whole) return value;
+    return less_is_harder_ ? std::ceil(value) : std::floor(value);
+  }
+
+  // Whether a design is found with the value; `easy_` moves to what it achieves.
+  bool Reaches(double value) {
+    Problem trial = problem_;
+    number_.set(trial, sign_ * value);
+    const Answer answer = search_.Any(trial);
+    if (answer.designs.empty()) {
+      known_ = known_ && answer.status == Status::kInfeasible;
+      if (known_) reach_.bound = sign_ * value;
+      return false;
+    }
+    found_at_ = value;
+    const std::optional<double> found = Achieved(answer, number_.pointer);
+    const double achieved = Rounded(found && takes_word_ ? sign_ * *found : value);
+    easy_ = less_is_harder_ ? std::max(hard_, std::min(achieved, value))
+                            : std::min(hard_, std::max(achieved, value));
+    return true;
+  }
+
+  void Halve() {
+    while (std::abs(std::log(easy_ / hard_)) > kTolerance && !search_.OutOfTime()) {
+      const double middle = Rounded(std::sqrt(easy_ * hard_));
+      if (middle == Rounded(hard_) || middle == Rounded(easy_)) break;
+      if (!Reaches(middle)) hard_ = middle;
+    }
+  }
+
+  // What a design achieves it may do only as long as nothing more is asked of it: a shorter mission
+  // lets a bottle of CO2 give more at once.
+  void Confirm() {
+    takes_word_ = false;
+    const double found_at = found_at_, best = Outward(easy_, less_is_harder_, number_.whole);
+    if (best == found_at || Reaches(best)) return;
+    hard_ = best;
+    easy_ = found_at;
+    Halve();
+  }
+
+  const Problem& problem_;
+  const Requirement& number_;
+  TrialSearch& search_;
+  double sign_;  // pressures under vacuum are below 0: their sizes are looked for
+  bool less_is_harder_;
+  double hard_, easy_;
+  double found_at_ = 0.0;   // the last value with which a design was found
+  bool takes_word_ = true;  // that a design says what it achieves
+  bool known_ = true;       // that all up to `hard_` is infeasible
+  Reach reach_;
+};
+
 }  // namespace
 
 TrialSearch::TrialSearch(const SearchOptions& options, double limit_s)
@@ -82,55 +170,8 @@ Answer TrialSearch::Run(const Problem& problem, bool any_design) {
 }
 
 Reach FindReach(const Problem& problem, const Demand& demand, TrialSearch& search) {
-  const Requirement& number = *demand.number;
-  if (number.objective) return LeastAmount(problem, demand, search);
-  // Pressures under vacuum are below 0: their sizes are looked for.
-  const double sign = number.required < 0.0 ? -1.0 : 1.0;
-  const bool less_is_harder = sign * number.loosest > sign * number.required;
-  // Whole numbers to the easy side: what a design achieves must still be met by it.
-  const auto rounded = [&](double value) {
-    if (!number.whole) return value;
-    return less_is_harder ? std::ceil(value) : std::floor(value);
-  };
-  double hard = sign * number.required, easy = sign * number.loosest;
-  Reach reach{std::nullopt, number.required};
-  bool known = true;  // that all up to `hard` is infeasible
-  // Whether a design is found with the value; `easy` moves to what it achieves.
-  const auto reaches = [&](double value) {
-    Problem trial = problem;
-    number.set(trial, sign * value);
-    const Answer answer = search.Any(trial);
-    if (answer.designs.empty()) {
-      known = known && answer.status == Status::kInfeasible;
-      if (known) reach.bound = sign * value;
-      return false;
-    }
-    const std::optional<double> found = Achieved(answer, number.pointer);
-    const double achieved = rounded(found ? sign * *found : value);
-    easy = less_is_harder ? std::max(hard, std::min(achieved, value))
-                          : std::min(hard, std::max(achieved, value));
-    return true;
-  };
-  // Looser is not always easier: a slower cycle holds valves longer. Approach from the required
-  // side.
-  if (std::isinf(easy) && !reaches(easy)) return reach;
-  const double last = easy;
-  const auto looser = [&](double value) {
-    return less_is_harder ? std::min(value * 2.0, last) : std::max(value * 0.5, last);
-  };
-  double value = looser(hard);
-  while (!reaches(rounded(value))) {
-    if (search.OutOfTime() || value == last) return reach;
-    hard = value;
-    value = looser(value);
-  }
-  while (std::abs(std::log(easy / hard)) > kTolerance && !search.OutOfTime()) {
-    const double middle = rounded(std::sqrt(easy * hard));
-    if (middle == rounded(hard) || middle == rounded(easy)) break;
-    if (!reaches(middle)) hard = middle;
-  }
-  reach.best = sign * Outward(easy, less_is_harder, number.whole);
-  return reach;
+  if (demand.number->objective) return LeastAmount(problem, demand, search);
+  return Approach(problem, *demand.number, search).Run();
 }
 
 }  // namespace plenum::optimizer

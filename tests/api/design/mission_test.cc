@@ -50,5 +50,23 @@ TEST(Mission, ALongerOneIsNeverLighter) {
   }
 }
 
+// What bottles hold is not what they give in so short a time.
+TEST(Mission, TheActuationsThatWouldBePossibleAre) {
+  for (const char* configuration : {"co2", "tank"}) {
+    Json request = Asked(3000);
+    request["supply"]["configurations"] = {configuration};
+    request["supply"]["volume_l_max"] = 0.5;
+    request["actuators"][0]["rest_volume_ml"] = 60;
+    const Json answer = Answered(request);
+    ASSERT_EQ(answer["status"], "infeasible") << configuration;
+    const Json& relaxation = answer["relaxation"];
+    ASSERT_EQ(relaxation.size(), 1u) << configuration;
+    ASSERT_EQ(relaxation[0]["requirement"], "/duty/actuations");
+    EXPECT_LT(relaxation[0]["value"], 3000);
+    request["duty"]["actuations"] = relaxation[0]["value"];
+    EXPECT_EQ(Answered(request)["status"], "optimal") << configuration << relaxation;
+  }
+}
+
 }  // namespace
 }  // namespace plenum::api
