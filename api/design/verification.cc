@@ -82,7 +82,8 @@ Problem AsListed(Problem problem, Reader& reader) {
                      ? optimizer::ListOf::kKinds
                      : optimizer::ListOf::kCombinations;
   const Json* prices = reader.Raw("price_basis");
-  problem.unpriced_allowed = prices && *prices == "lower_bound";
+  problem.unpriced_allowed = false;
+  if (prices && *prices == "lower_bound") optimizer::AllowUnpriced(problem);
   return problem;
 }
 

@@ -6,6 +6,7 @@
 #include "optimizer/evaluate/line.h"
 #include "optimizer/explain/conflict.h"
 #include "optimizer/explain/variants.h"
+#include "optimizer/problem/amount.h"
 #include "optimizer/search/tree_search.h"
 
 namespace plenum::optimizer {
@@ -18,7 +19,7 @@ Answer Search(const Problem& problem, const SearchOptions& options) {
   Problem searched = problem;
   Answer answer = SearchTrees(searched, options);
   if (answer.status == Status::kInfeasible && PricesNeeded(problem)) {
-    searched.unpriced_allowed = true;
+    AllowUnpriced(searched);
     SearchOptions left = options;
     left.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
     answer = SearchTrees(searched, left);

@@ -65,4 +65,12 @@ bool PricesNeeded(const Problem& problem) {
   return CostCounts(problem) && !problem.unpriced_allowed;
 }
 
+void AllowUnpriced(Problem& problem) {
+  constexpr double kEurPerKg = 1e-3;
+  problem.unpriced_allowed = true;
+  Objective& objective = problem.objective;
+  if (objective.cost_eur > 0.0 && objective.mass_kg == 0.0)
+    objective.mass_kg = kEurPerKg * objective.cost_eur;
+}
+
 }  // namespace plenum::optimizer

@@ -287,8 +287,8 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   CheckTogether(reader, parsed, probability_min.has_value());
   ReadChoices(reader, parts, problem);
   ReadModel(reader, models, parsed);
-  if (reader.Has("prices"))
-    problem.unpriced_allowed = reader.Choice("prices", {"known", "lower_bound"}) == "lower_bound";
+  if (reader.Has("prices") && reader.Choice("prices", {"known", "lower_bound"}) == "lower_bound")
+    optimizer::AllowUnpriced(problem);
   const bool front_of_cost = std::find(parsed.pareto.begin(), parsed.pareto.end(),
                                        optimizer::Amount::kCost) != parsed.pareto.end();
   if (problem.unpriced_allowed && front_of_cost)
