@@ -161,12 +161,14 @@ class Sketch {
   }
 
   void AddBatteries() {
-    Add(problem_.parts.batteries, problem_.limits.batteries,
-        [&](const model::Battery& part, int quantity) {
-          const double energy_j =
-              quantity * model::UsableEnergy(part.capacity_ah, part.nominal_voltage_v);
-          return energy_j < kRounding * coils_j_ ? kUnlimited : Pieces()(part, quantity);
-        });
+    std::vector<model::Battery> batteries = problem_.parts.batteries;
+    batteries.resize(
+        static_cast<std::size_t>(ChoicesIn(problem_, configuration(), Family::kBattery)));
+    Add(batteries, problem_.limits.batteries, [&](const model::Battery& part, int quantity) {
+      const double energy_j =
+          quantity * model::UsableEnergy(part.capacity_ah, part.nominal_voltage_v);
+      return energy_j < kRounding * coils_j_ ? kUnlimited : Pieces()(part, quantity);
+    });
   }
 
   const Problem& problem_;

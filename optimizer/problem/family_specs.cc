@@ -126,6 +126,13 @@ int FamilySize(const model::Parts& parts, Family family) {
   return static_cast<int>(SpecOf(family).size(parts));
 }
 
+int ChoicesIn(const Problem& problem, Configuration configuration, Family family) {
+  const int all = FamilySize(problem.parts, family);
+  const bool any_voltage = family == Family::kBattery && !HasPump(configuration) &&
+                           problem.power.kind != PowerKind::kBattery;
+  return any_voltage ? std::min(all, 1) : all;
+}
+
 const model::PartBasics& BasicsOf(const model::Parts& parts, Family family, int part) {
   return SpecOf(family).basics(parts, part);
 }

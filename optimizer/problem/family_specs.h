@@ -45,6 +45,9 @@ std::vector<FamilySpec> OwnFamilies();
 const FamilySpec& SpecOf(Family family);
 
 int FamilySize(const model::Parts& parts, Family family);
+// How many of them, from the first on, a configuration has to choose from: of supplies from outside
+// one, where no pump asks for a voltage of its own.
+int ChoicesIn(const Problem& problem, Configuration configuration, Family family);
 const model::PartBasics& BasicsOf(const model::Parts& parts, Family family, int part);
 model::PartBasics& BasicsOf(model::Parts& parts, Family family, int part);
 // Index of the part with this id; −1: the family has none.

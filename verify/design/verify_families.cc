@@ -25,7 +25,7 @@ std::vector<ProofItem> EntriesOf(const Problem& problem, const Layout& layout,
     return {{-1, 0}};
   const bool cost = AsksForPrices(problem);
   std::vector<ProofItem> entries;
-  for (int part = 0; part < FamilySize(problem.parts, family); ++part)
+  for (int part = 0; part < ChoicesIn(problem, layout.configuration, family); ++part)
     for (int quantity = 1; quantity <= QuantityMax(problem, family); ++quantity)
       if (!cost || BasicsOf(problem.parts, family, part).cost_eur)
         entries.push_back({part, quantity});
@@ -54,9 +54,9 @@ BigCount Combinations(const Problem& problem, const Layout& layout) {
   for (const ProofSlot& slot : EmptyPlan(problem, layout).slots) {
     if (slot.family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
       continue;
-    count *= FamilySize(problem.parts, slot.family) * QuantityMax(problem, slot.family) +
-             (MadeToMeasureAllowed(problem, slot.family) ? 1 : 0) +
-             (MayBeNone(layout, slot) ? 1 : 0);
+    count *=
+        ChoicesIn(problem, layout.configuration, slot.family) * QuantityMax(problem, slot.family) +
+        (MadeToMeasureAllowed(problem, slot.family) ? 1 : 0) + (MayBeNone(layout, slot) ? 1 : 0);
   }
   return count;
 }

@@ -11,7 +11,7 @@
 namespace plenum::verify {
 
 using optimizer::BasicsOf;
-using optimizer::FamilySize;
+using optimizer::ChoicesIn;
 using optimizer::FamilySpec;
 using optimizer::FieldValue;
 using optimizer::FindPart;

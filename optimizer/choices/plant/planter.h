@@ -244,7 +244,7 @@ class Planter {
     constexpr int kBetweenLooks = 256;
     const FamilySpec& spec = SpecOf(family);
     const int most = QuantityMax(problem_, family);
-    const int size = FamilySize(problem_.parts, family);
+    const int size = ChoicesIn(problem_, plan_->configuration, family);
     Entries<Corner> entries;
     entries.Reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(most) + 1);
     for (int i = 0; i < size; ++i) {
@@ -281,7 +281,7 @@ class Planter {
   }
   // How many choices that makes, were there a price for each.
   long long ChoicesOf(Family family) const {
-    return static_cast<long long>(FamilySize(problem_.parts, family)) *
+    return static_cast<long long>(ChoicesIn(problem_, plan_->configuration, family)) *
            QuantityMax(problem_, family);
   }
 

@@ -125,6 +125,19 @@ TEST(PowerTest, OfBottlesTakesTheBatteryAway) {
   EXPECT_EQ(Refusals(answer), "");
 }
 
+// The wall gives each pump its voltage; where there is none that makes no designs of their own.
+TEST(PowerTest, OfBottlesIsNoChoice) {
+  Json request = Powered("gripper", {{"kind", "wall"}});
+  request["supply"]["configurations"] = {"cylinder", "compressor"};
+  request["ranking"] = {{"count", 6}, {"list", "combinations"}, {"proof", true}};
+  const Json answer = Answered(request);
+  ASSERT_EQ(answer["designs"].size(), 6u);
+  std::set<std::string> different;
+  for (const Json& design : answer["designs"]) different.insert(design["parts"].dump());
+  EXPECT_EQ(different.size(), 6u);
+  EXPECT_EQ(Refusals(answer), "");
+}
+
 TEST(PowerTest, ADesignWithItIsEvaluatedWithoutABattery) {
   const Json request = Powered("exosuit", {{"kind", "wall"}});
   const Json design = Answered(request)["designs"][0];
