@@ -46,6 +46,22 @@ double ShareAt(const Problem& problem, const Plan& plan, double inlet_pa) {
   return high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
 }
 
+// Whether the strokes of the last period are in time out of a tank without a regulator, which all
+// periods before have drawn on.
+bool LastAreInTime(const Problem& problem, const Plan& plan, const Box& box, const TankAt& fullest,
+                   double drawn_m3) {
+  const double source_pa = LeftPa(fullest, drawn_m3);
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const Line& line = *box.lines[g];
+    const std::vector<model::FlowElement> elements =
+        Elements(RegulatorAt(plan, box, g).flow, line, FilledAtOnce(problem, g));
+    Filling filling(problem, g, elements, FlowFactor(problem, GasOf(plan.configuration)),
+                    line.chamber, kBoxSlack);
+    if (!filling.InTime(source_pa)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
@@ -151,11 +167,12 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     const double air_m3 = problem_.actuations * box.air_m3;
     // Without a regulator the last stroke may take a tank below the least that it asks.
     const double above_m3 = inlet.some_none ? air_m3 - box.air_m3 : air_m3;
-    const bool tank = HasTank(plan_.configuration);
+    const bool tank = HasTank(plan_.configuration), refilled = tank && plan_.compressor_slot >= 0;
     const double fill_max_pa = inlet.all_none ? box.window.high_pa : inlet.max_pa;
-    const bool refilled = tank && plan_.compressor_slot >= 0;
     const TankAt fullest{problem_, CornerAt(plan_.bottles, box, plan_.bottle_slot), fill_max_pa,
                          inlet_pa};
+    if (inlet.all_none && !LastAreInTime(problem_, plan_, box, fullest, above_m3 / kRounding))
+      return Constraint::kRise;
     const double cycle_m3 = box.air_m3 / kRounding;
     if (refilled)
       refilling = LeastRefilling(
@@ -173,8 +190,7 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     bound += EnergyShare(refilling.energy_j);
     bound += problem_.objective.mass_kg * air_kg;
     const double share = ShareAt(problem_, plan_, inlet_pa);
-    const Amounts all = LeastOfAll(box);
-    const Amounts& counted = fullest.tank.amounts;
+    const Amounts all = LeastOfAll(box), counted = fullest.tank.amounts;
     const Amounts others{all.mass_kg - counted.mass_kg + air_kg, all.volume_m3 - counted.volume_m3,
                          all.cost_eur - counted.cost_eur};
     const double bottle =

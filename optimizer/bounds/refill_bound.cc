@@ -46,6 +46,10 @@ double LeftM3(const TankAt& at) {
   return CapacityM3PerPa(at) * (at.inlet_pa - LeastSourcePa(at.problem)) / kRounding;
 }
 
+double LeftPa(const TankAt& at, double air_m3) {
+  return (FillPa(at) - air_m3 / CapacityM3PerPa(at)) * kRounding;
+}
+
 Refilling LeastRefilling(const TankAt& at, double cycle_m3, const CompressorCorner& pumps,
                          const PumpRates& rates, const Option* chosen) {
   const Problem& problem = at.problem;

@@ -19,6 +19,9 @@ double GivenM3(const TankAt& at);
 // What is left in it then, beyond the least that any tank keeps.
 double LeftM3(const TankAt& at);
 
+// The most that is left of its pressure once so much air has been taken.
+double LeftPa(const TankAt& at, double air_m3);
+
 // What pumps do for a tank that is the fullest of a box, until the last period begins: all that
 // they deliver, they do above the pressure at which it keeps the air of that period. Of pumps that
 // are chosen the stop pressure, energy and current are those with this tank, none of which falls

@@ -6,6 +6,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_node.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_refill.h"
 #include "verify/design/cycle/verify_rig.h"
 #include "verify/design/verify_design.h"
 
@@ -36,26 +37,13 @@ int RegulatorCount(const Problem& problem, const ProofPlan& plan) {
   return plan.own_regulators ? static_cast<int>(problem.groups.size()) : 1;
 }
 
-// Gas that a bottle gives down to an inlet pressure.
-double GasOf(const Problem& problem, Family family, const ProofItem& item, double inlet_pa) {
-  const double temperature_k = problem.ambient.temperature_k;
-  if (family == Family::kCylinder) {
-    const model::Cylinder& bottle = problem.parts.cylinders[item.part];
-    return item.quantity * model::CylinderUsableVolume(bottle.water_volume_m3,
-                                                       bottle.fill_pressure_pa, inlet_pa,
-                                                       temperature_k);
-  }
-  const model::Co2Bottle& bottle = problem.parts.co2[item.part];
-  return item.quantity * model::Co2UsableVolume(bottle.co2_mass_kg, bottle.water_volume_m3,
-                                                inlet_pa, temperature_k);
-}
-
 }  // namespace
 
 Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes)
     : problem_(problem),
       plan_(plan),
       strokes_(strokes),
+      shared_(AllAtOnce(problem) && !Evacuated(problem) && !plan.own_regulators),
       amounts_(AmountsOfAll(problem, plan)),
       least_(plan.slots.size()) {
   if (plan.configuration == Configuration::kTankAndPump) fillers_.emplace(problem, plan);
@@ -191,7 +179,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const SourceBounds& first = sources.front();
   const double temperature_k = problem_.ambient.temperature_k;
   const double factor = FactorOf(problem_, plan_.configuration);
-  if (AllAtOnce(problem_) && !plan_.own_regulators && !first.some_open) {
+  if (shared_ && !first.some_open) {
     std::vector<const BestLine*> lines;
     lines.reserve(problem_.groups.size());
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
@@ -265,56 +253,73 @@ double Corners::LeastTank(const Ranges& ranges, const Inlets& inlets, const Sour
   const int slot = SlotOf(plan_, Family::kTank, -1);
   const double mission_m3 = problem_.actuations * air_m3;
   const double above_m3 = source.some_open ? mission_m3 - air_m3 : mission_m3;
-  double objective = kUnlimited;
+  double objective = kUnlimited,
+         left_pa = 0.0;  // of all that hold the air, and for the last period
   for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
     const ProofItem& item = plan_.slots[slot].choices[i];
     const model::Reservoir& tank = problem_.parts.tanks[item.part];
     const double fill_pa = std::min({tank.pressure_max_pa, problem_.tank_fill_max_pa, most_pa});
-    const double given_m3 = model::StandardVolume(
-        item.quantity * tank.volume_m3 * (fill_pa - inlet_pa), problem_.ambient.temperature_k);
-    if (given_m3 * kSlack >= above_m3) objective = std::min(objective, amounts_[slot][i].objective);
+    const double capacity_m3_per_pa =
+        model::StandardVolume(item.quantity * tank.volume_m3, problem_.ambient.temperature_k);
+    if (capacity_m3_per_pa * (fill_pa - inlet_pa) * kSlack < above_m3) continue;
+    objective = std::min(objective, amounts_[slot][i].objective);
+    left_pa = std::max(left_pa, fill_pa - (mission_m3 - air_m3) / capacity_m3_per_pa);
+  }
+  if (source.all_open && std::isfinite(objective)) {
+    SourceBounds last = source;
+    last.high_pa = std::min(last.high_pa, left_pa * kSlack);
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      if (std::isinf(InflateSeconds(strokes_.Line(ranges, g), g, last, ranges[RegulatorSlot(g)])))
+        return kUnlimited;
   }
   return objective +
          problem_.objective.mass_kg * mission_m3 / kSlack * model::kReferenceDensityKgPerM3;
 }
 
-// What the fullest tank of the box does not hold pumps must deliver, above the pressure at which it
-// keeps the air of the last period; and what the strongest pumps do not deliver a tank must hold,
-// at least that air.
+// What the fullest tank does not hold pumps must deliver, in time, above the pressure at which it
+// keeps the air of the last period; what the strongest pumps do not a tank must hold.
 double Corners::LeastRefilled(const Ranges& ranges, const Inlets& inlets, double air_m3,
                               double energy_j) {
   const double inlet_pa = std::max(inlets.low_pa, inlets.min_pa);
   const int slot = SlotOf(plan_, Family::kTank, -1);
   const double per_m3_pa = model::StandardVolume(1.0, problem_.ambient.temperature_k);
   std::vector<double> given_m3;
-  double largest_m3 = 0.0, most_m3 = 0.0;
-  for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+  double largest_m3 = 0.0, most_m3 = 0.0, fullest_pa = 0.0;
+  const auto [first, last] = ranges[slot];
+  for (int i = first; i < last; ++i) {
     const ProofItem& item = plan_.slots[slot].choices[i];
     const model::Reservoir& tank = problem_.parts.tanks[item.part];
+    const double volume_m3 = item.quantity * tank.volume_m3;
+    largest_m3 = std::max(largest_m3, volume_m3);
     const double fill_pa =
         std::min({tank.pressure_max_pa, problem_.tank_fill_max_pa, inlets.max_pa});
-    const double volume_m3 = item.quantity * tank.volume_m3;
+    fullest_pa = std::max(fullest_pa, fill_pa);
     given_m3.push_back(volume_m3 * per_m3_pa * (fill_pa - inlet_pa));
-    largest_m3 = std::max(largest_m3, volume_m3);
     most_m3 = std::max(most_m3, given_m3.back());
   }
   const double kept_pa = inlet_pa + air_m3 / (largest_m3 * per_m3_pa) / kSlack;
-  const PumpCells& pumps =
-      fillers_->CellsIn(ranges[SlotOf(plan_, PumpFamily(plan_.configuration), -1)]);
+  const int pump_slot = SlotOf(plan_, PumpFamily(plan_.configuration), -1);
+  const PumpCells& pumps = fillers_->CellsIn(ranges[pump_slot]);
   const double seconds = (problem_.actuations - 1.0) / problem_.frequency_hz;
-  const double pumped_m3 = kept_pa > pumps.highest_pa * kSlack
-                               ? 0.0
-                               : pumps.duty_max * fillers_->DeliveryAt(pumps, kept_pa) * seconds;
+  const bool reach = kept_pa <= pumps.highest_pa * kSlack;
+  const double pumped_m3 =
+      reach ? pumps.duty_max * fillers_->DeliveryAt(pumps, kept_pa) * seconds : 0.0;
   const double mission_m3 = problem_.actuations * air_m3 / kSlack;
   const double held_m3 = std::max(mission_m3 - pumped_m3, air_m3 / kSlack);
   double objective = kUnlimited;
   for (std::size_t i = 0; i < given_m3.size(); ++i)
     if (given_m3[i] * kSlack >= held_m3)
-      objective = std::min(
-          objective, amounts_[slot][static_cast<std::size_t>(ranges[slot].first) + i].objective);
+      objective = std::min(objective, amounts_[slot][first + i].objective);
   const double lacking_m3 = mission_m3 - most_m3;
-  const double pump_j =
+  double pump_j =
       lacking_m3 > 0.0 ? lacking_m3 * pumps.energy_j_per_m3[fillers_->CellOf(kept_pa)] : 0.0;
+  if (const auto [pump, end] = ranges[pump_slot]; lacking_m3 > 0.0 && end - pump == 1) {
+    const ProofItem& item = plan_.slots[pump_slot].choices[pump];
+    const FilledTank tank{largest_m3 * per_m3_pa, air_m3 / kSlack, kept_pa};
+    pump_j = std::max(pump_j, LeastPumped(problem_, PumpsOf(problem_)[item.part], item.quantity,
+                                          tank, fullest_pa * kSlack));
+    if (std::isinf(pump_j)) return kUnlimited;
+  }
   return objective + problem_.objective.mass_kg * held_m3 * model::kReferenceDensityKgPerM3 +
          problem_.objective.energy_wh * pump_j / 3600.0 + LeastBattery(ranges, energy_j + pump_j);
 }

@@ -78,6 +78,7 @@ class Corners {
   const Problem& problem_;
   const ProofPlan& plan_;
   KnownStrokes& strokes_;
+  bool shared_;  // groups inflate at once at the node behind a regulator
   std::vector<std::vector<ItemAmounts>> amounts_;                       // per slot and choice
   std::vector<std::unordered_map<std::uint64_t, LeastAmounts>> least_;  // per slot, by range
   std::map<SlotRange, Packs> packs_;

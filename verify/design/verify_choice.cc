@@ -102,4 +102,17 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const Pr
   return sum;
 }
 
+double GasOf(const Problem& problem, Family family, const ProofItem& item, double inlet_pa) {
+  const double temperature_k = problem.ambient.temperature_k;
+  if (family == Family::kCylinder) {
+    const model::Cylinder& bottle = problem.parts.cylinders[item.part];
+    return item.quantity * model::CylinderUsableVolume(bottle.water_volume_m3,
+                                                       bottle.fill_pressure_pa, inlet_pa,
+                                                       temperature_k);
+  }
+  const model::Co2Bottle& bottle = problem.parts.co2[item.part];
+  return item.quantity * model::Co2UsableVolume(bottle.co2_mass_kg, bottle.water_volume_m3,
+                                                inlet_pa, temperature_k);
+}
+
 }  // namespace plenum::verify
