@@ -277,9 +277,9 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   TakeMeasured(rig.measured, measured, run);
   ReadVolume(reader, run);
   const Range pressures = PressuresAbove0(run.ambient);
-  const auto source_kpa =
-      reader.OptionalNumber("source_pressure_kpa_gauge",
-                            run.supply == Supply::kRegulated ? pressures : Range{0, kRigGaugeMaxKpa});
+  const auto source_kpa = reader.OptionalNumber(
+      "source_pressure_kpa_gauge",
+      run.supply == Supply::kRegulated ? pressures : Range{0, kRigGaugeMaxKpa});
   const bool has_source = source_kpa || rig.source_pressure_pa;
   run.source_pressure_pa = source_kpa ? PaFromKpaGauge(*source_kpa, run.ambient)
                                       : rig.source_pressure_pa.value_or(run.ambient.pressure_pa);
@@ -291,8 +291,8 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.t_s = ReadSeries(reader, "t_s", {-kTimeMaxS, kTimeMaxS}, false, kReadingsMin);
   CheckRising(reader, run.t_s);
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
-  run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge", {1.5 * lowest_kpa, kRigGaugeMaxKpa},
-                                    true, kReadingsMin),
+  run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge",
+                                    {1.5 * lowest_kpa, kRigGaugeMaxKpa}, true, kReadingsMin),
                          [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
   CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
   FindInstants(reader, run);

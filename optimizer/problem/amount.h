@@ -21,9 +21,9 @@ double& LimitOn(Amount amount, Problem& problem);
 bool CostCounts(const Problem& problem);
 bool PricesNeeded(const Problem& problem);
 
-// Lets parts without a price count as free. Where cost alone is minimised most designs then tie, and
-// a kilogram counts as much as a tenth of a cent, so that the lightest of the same price is first:
-// designs whose known prices differ by less than that may change places.
+// Lets parts without a price count as free. Where cost alone is minimised most designs then tie,
+// and a kilogram counts as much as a tenth of a cent, so that the lightest of the same price is
+// first: designs whose known prices differ by less than that may change places.
 void AllowUnpriced(Problem& problem);
 
 }  // namespace plenum::optimizer

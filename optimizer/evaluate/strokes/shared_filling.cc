@@ -377,9 +377,9 @@ class SharedFilling {
 std::optional<Strokes> FillTogether(const Problem& problem, const Candidate& candidate,
                                     double source_pa) {
   const model::FlowElement regulator[] = {problem.parts.regulators[candidate.regulator.index].flow};
-  const bool tables =
-      !Evacuated(problem) && HasTable(regulator) && std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                                         [](const Line* line) { return HasTable(line->fill); });
+  const bool tables = !Evacuated(problem) && HasTable(regulator) &&
+                      std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                                  [](const Line* line) { return HasTable(line->fill); });
   if (!tables) return std::nullopt;
   return SharedFilling(problem, candidate, source_pa)
       .Run(candidate.bench != nullptr ? candidate.bench->stop : std::function<bool()>());
