@@ -35,8 +35,8 @@ T GroupSetup<T>::QuasiStaticSlope(const T& pressure_pa) const {
   using std::cos;
   if (blocked) return T(0.0);
   const T span = operating_pressure_pa - ambient_pressure_pa;
-  const T slope = volume_curve ? CurveSlopeAt(*volume_curve, BentPressure(pressure_pa))
-                               : T(rest_volume_m3 * (expansion_ratio - 1.0) / span);
+  T slope = volume_curve ? CurveSlopeAt(*volume_curve, BentPressure(pressure_pa))
+                         : T(rest_volume_m3 * (expansion_ratio - 1.0) / span);
   if (!bent) return slope;
   const T x = (pressure_pa - ambient_pressure_pa) / span;
   constexpr double kTurn = 2.0 * std::numbers::pi;
