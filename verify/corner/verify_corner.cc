@@ -4,9 +4,9 @@
 
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
+#include "verify/corner/verify_least_line.h"
 #include "verify/corner/verify_node.h"
 #include "verify/design/cycle/verify_gait.h"
-#include "verify/design/cycle/verify_refill.h"
 #include "verify/design/cycle/verify_rig.h"
 #include "verify/design/verify_design.h"
 
@@ -14,24 +14,7 @@ namespace plenum::verify {
 namespace {
 
 constexpr double kSlack = 1.0 + kSumTolerance;
-
-// Calls `visit(item)` for the choices of a slot in the box until one gives true.
-template <typename Visit>
-bool Any(const ProofPlan& plan, const Ranges& ranges, int slot, const Visit& visit) {
-  for (int i = ranges[slot].first; i < ranges[slot].second; ++i)
-    if (visit(plan.slots[slot].choices[i])) return true;
-  return false;
-}
-
-SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
-  SlotAmounts all;
-  for (const ProofSlot& slot : plan.slots) {
-    all.emplace_back();
-    for (const ProofItem& item : slot.choices)
-      all.back().push_back(ChoiceAmounts(problem, LayoutOf(plan), slot, item));
-  }
-  return all;
-}
+constexpr int kSlotsOfLine = 3;
 
 int RegulatorCount(const Problem& problem, const ProofPlan& plan) {
   return plan.own_regulators ? static_cast<int>(problem.groups.size()) : 1;
@@ -190,6 +173,9 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
                         lines))
       return kUnlimited;
   }
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+    chosen += LineExcess(ranges, g, plan_.own_regulators ? sources[g] : first);
+  if (std::isinf(chosen)) return kUnlimited;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
@@ -216,6 +202,27 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   if (plan_.configuration == Configuration::kTank)
     return sum + LeastTank(ranges, inlets, first, air_m3) + LeastBattery(ranges, energy_j);
   return LeastStores(ranges, inlets, {air_m3, energy_j}, sum);
+}
+
+double Corners::LineExcess(const Ranges& ranges, int g, const SourceBounds& source) {
+  const int slot = kSlotsOfLine * g;  // in the order of LineFamilies()
+  const auto& regulators = ranges[RegulatorSlot(g)];
+  const auto [entry, fresh] = lines_.try_emplace(
+      {g, source.high_pa, {ranges[slot], ranges[slot + 1], ranges[slot + 2], regulators}}, 0.0);
+  if (!fresh) return entry->second;
+  const LineChoices choices{{slot, slot + 1, slot + 2},
+                            [&](const Ranges& part, int of) {
+                              const LeastAmounts& amounts = Least(part, of);
+                              return std::pair(amounts.least.objective, amounts.objective_most);
+                            },
+                            [&](const Ranges& part) {
+                              const BestLine& line = strokes_.Line(part, g);
+                              return !line.mates || !line.works ||
+                                     std::isinf(InflateSeconds(line, g, source, regulators));
+                            }};
+  double excess = LeastLine(choices, ranges);
+  for (const int of : choices.slots) excess -= Least(ranges, of).least.objective;
+  return entry->second = excess;
 }
 
 double Corners::InflateSeconds(const BestLine& line, int g, const SourceBounds& source,
@@ -276,15 +283,16 @@ double Corners::LeastTank(const Ranges& ranges, const Inlets& inlets, const Sour
          problem_.objective.mass_kg * mission_m3 / kSlack * model::kReferenceDensityKgPerM3;
 }
 
-// What the fullest tank does not hold pumps must deliver, in time, above the pressure at which it
-// keeps the air of the last period; what the strongest pumps do not a tank must hold.
+// What the fullest tank of the box does not hold pumps must deliver, above the pressure at which it
+// keeps the air of the last period; and what the strongest pumps do not deliver a tank must hold,
+// at least that air.
 double Corners::LeastRefilled(const Ranges& ranges, const Inlets& inlets, double air_m3,
                               double energy_j) {
   const double inlet_pa = std::max(inlets.low_pa, inlets.min_pa);
   const int slot = SlotOf(plan_, Family::kTank, -1);
   const double per_m3_pa = model::StandardVolume(1.0, problem_.ambient.temperature_k);
   std::vector<double> given_m3;
-  double largest_m3 = 0.0, most_m3 = 0.0, fullest_pa = 0.0;
+  double largest_m3 = 0.0, most_m3 = 0.0;
   const auto [first, last] = ranges[slot];
   for (int i = first; i < last; ++i) {
     const ProofItem& item = plan_.slots[slot].choices[i];
@@ -293,13 +301,12 @@ double Corners::LeastRefilled(const Ranges& ranges, const Inlets& inlets, double
     largest_m3 = std::max(largest_m3, volume_m3);
     const double fill_pa =
         std::min({tank.pressure_max_pa, problem_.tank_fill_max_pa, inlets.max_pa});
-    fullest_pa = std::max(fullest_pa, fill_pa);
     given_m3.push_back(volume_m3 * per_m3_pa * (fill_pa - inlet_pa));
     most_m3 = std::max(most_m3, given_m3.back());
   }
   const double kept_pa = inlet_pa + air_m3 / (largest_m3 * per_m3_pa) / kSlack;
-  const int pump_slot = SlotOf(plan_, PumpFamily(plan_.configuration), -1);
-  const PumpCells& pumps = fillers_->CellsIn(ranges[pump_slot]);
+  const PumpCells& pumps =
+      fillers_->CellsIn(ranges[SlotOf(plan_, PumpFamily(plan_.configuration), -1)]);
   const double seconds = (problem_.actuations - 1.0) / problem_.frequency_hz;
   const bool reach = kept_pa <= pumps.highest_pa * kSlack;
   const double pumped_m3 =
@@ -311,15 +318,8 @@ double Corners::LeastRefilled(const Ranges& ranges, const Inlets& inlets, double
     if (given_m3[i] * kSlack >= held_m3)
       objective = std::min(objective, amounts_[slot][first + i].objective);
   const double lacking_m3 = mission_m3 - most_m3;
-  double pump_j =
+  const double pump_j =
       lacking_m3 > 0.0 ? lacking_m3 * pumps.energy_j_per_m3[fillers_->CellOf(kept_pa)] : 0.0;
-  if (const auto [pump, end] = ranges[pump_slot]; lacking_m3 > 0.0 && end - pump == 1) {
-    const ProofItem& item = plan_.slots[pump_slot].choices[pump];
-    const FilledTank tank{largest_m3 * per_m3_pa, air_m3 / kSlack, kept_pa};
-    pump_j = std::max(pump_j, LeastPumped(problem_, PumpsOf(problem_)[item.part], item.quantity,
-                                          tank, fullest_pa * kSlack));
-    if (std::isinf(pump_j)) return kUnlimited;
-  }
   return objective + problem_.objective.mass_kg * held_m3 * model::kReferenceDensityKgPerM3 +
          problem_.objective.energy_wh * pump_j / 3600.0 + LeastBattery(ranges, energy_j + pump_j);
 }

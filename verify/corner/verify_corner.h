@@ -70,6 +70,9 @@ class Corners {
   // `sum` with the least of the bottles and batteries that hold so much.
   double LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored, double sum);
 
+  // By how much more than its parts at their least a line of the group weighs that works alone
+  // behind its regulator.
+  double LineExcess(const Ranges& ranges, int group, const SourceBounds& source);
   // Of the most actuators of a group that fill at once behind the regulator, at least; +∞: later
   // than its limits.
   double InflateSeconds(const BestLine& line, int group, const SourceBounds& source,
@@ -83,6 +86,7 @@ class Corners {
   std::vector<std::unordered_map<std::uint64_t, LeastAmounts>> least_;  // per slot, by range
   std::map<SlotRange, Packs> packs_;
   std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
+  std::map<std::tuple<int, double, std::array<std::pair<int, int>, 4>>, double> lines_;
   std::optional<Pumps> pumps_;
   std::optional<PumpChoices> fillers_;
   std::optional<DirectPumps> direct_;

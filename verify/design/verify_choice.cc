@@ -115,4 +115,14 @@ double GasOf(const Problem& problem, Family family, const ProofItem& item, doubl
                                                 inlet_pa, temperature_k);
 }
 
+std::vector<std::vector<ItemAmounts>> AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
+  std::vector<std::vector<ItemAmounts>> all;
+  for (const ProofSlot& slot : plan.slots) {
+    all.emplace_back();
+    for (const ProofItem& item : slot.choices)
+      all.back().push_back(ChoiceAmounts(problem, LayoutOf(plan), slot, item));
+  }
+  return all;
+}
+
 }  // namespace plenum::verify

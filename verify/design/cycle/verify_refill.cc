@@ -53,27 +53,14 @@ double LastTrue(double low, double high, const auto& holds) {
 
 }  // namespace
 
-namespace {
-
-FilledTank TankOf(const Problem& problem, const Assembly& a, double source_pa, double air_m3) {
-  const double capacity = model::StandardVolume(TankVolume(a), problem.ambient.temperature_k);
-  return {capacity, air_m3, InletPa(problem, a, source_pa) + air_m3 / capacity};
-}
-
-}  // namespace
-
 RefillCurve::RefillCurve(const Problem& problem, const Assembly& a, double source_pa, double air_m3)
-    : RefillCurve(problem, *a.filler(), a.compressors, TankOf(problem, a, source_pa, air_m3)) {}
-
-RefillCurve::RefillCurve(const Problem& problem, const model::Compressor& pump, int pumps,
-                         const FilledTank& tank)
-    : curve_(pump.curve),
-      pumps_(pumps),
-      duty_(pump.duty_max),
-      capacity_m3_per_pa_(tank.capacity_m3_per_pa),
-      draw_m3_per_s_(tank.air_m3 * problem.frequency_hz),
+    : curve_(a.filler()->curve),
+      pumps_(a.compressors),
+      duty_(a.filler()->duty_max),
+      capacity_m3_per_pa_(model::StandardVolume(TankVolume(a), problem.ambient.temperature_k)),
+      draw_m3_per_s_(air_m3 * problem.frequency_hz),
       seconds_((problem.actuations - 1.0) / problem.frequency_hz),
-      kept_pa_(tank.kept_pa),
+      kept_pa_(InletPa(problem, a, source_pa) + air_m3 / capacity_m3_per_pa_),
       highest_pa_(std::max(kept_pa_, model::HighestPressure(curve_))) {
   holds_ = Delivered(kept_pa_) >= draw_m3_per_s_;
   if (holds_) return;
@@ -155,14 +142,6 @@ Refilled RefillCurve::At(double fill_pa) const {
   refilled.on_s = duty_ * fallen.seconds;
   refilled.energy_j = fallen.energy_j;
   return refilled;
-}
-
-double LeastPumped(const Problem& problem, const model::Compressor& pump, int pumps,
-                   const FilledTank& tank, double fill_pa) {
-  constexpr double kRoom = 1.0 + 1e-4;
-  const double seconds = (problem.actuations - 1.0) / problem.frequency_hz;
-  const Refilled mission = RefillCurve(problem, pump, pumps, tank).At(fill_pa);
-  return mission.lasts_s * kRoom < seconds ? kUnlimited : mission.energy_j / kRoom;
 }
 
 double FillFor(const Problem& problem, const Assembly& a, double source_pa, const Cycle& cycle,

@@ -18,20 +18,10 @@ struct Refilled {
   double energy_j = 0.0;  // all pumps
 };
 
-struct FilledTank {
-  double capacity_m3_per_pa = 0.0;  // ANR
-  double air_m3 = 0.0;              // that a period takes
-  double kept_pa = 0.0;             // the least at which it has that air
-};
-
 // Pumps of a tank that must keep the air of one period above the pressure that its regulators ask.
-// The less it holds the sooner they start: on-time, energy and stop pressure fall with its volume
-// and its fill.
 class RefillCurve {
  public:
   RefillCurve(const Problem& problem, const Assembly& assembly, double source_pa, double air_m3);
-  RefillCurve(const Problem& problem, const model::Compressor& pump, int pumps,
-              const FilledTank& tank);
   Refilled At(double fill_pa) const;
   // Least fill: above what is kept, by so much that rounding decides nothing.
   double LeastFill() const { return 1.0001 * kept_pa_; }
@@ -55,11 +45,6 @@ class RefillCurve {
   std::vector<double> pressures_pa_;
   std::vector<Fallen> fallen_;  // from each pressure
 };
-
-// J of pumps in a mission with a tank filled so far, at least: with room for the error of the sums.
-// +∞ where they do not last it.
-double LeastPumped(const Problem& problem, const model::Compressor& pump, int pumps,
-                   const FilledTank& tank, double fill_pa);
 
 // The fill of a tank for the mission, of which so much may be missed: the least, or of one that
 // pumps fill what is best.
