@@ -96,6 +96,12 @@ std::vector<double> InSi(const std::vector<double>& series, auto&& convert) {
   return si;
 }
 
+// Most that a reading may be: what looks like pascals on a rig that is no such is refused.
+double HighestKpa(const Run& run) {
+  const double declared_pa = std::max(run.chamber.operating_pressure_pa, run.source_pressure_pa);
+  return declared_pa > kGaugeMaxKpa * kPaPerKpa ? kRigGaugeMaxKpa : kGaugeMaxKpa;
+}
+
 void ReadChannels(Reader& owner, Run& run) {
   auto channels = owner.OptionalObject("channels");
   if (!channels) return;
@@ -110,14 +116,14 @@ void ReadChannels(Reader& owner, Run& run) {
         std::all_of(channel.begin(), channel.end(), [](double value) { return std::isnan(value); });
     if (silent) channel.clear();
   };
-  const Range pressure = Above(lowest_kpa, kRigGaugeMaxKpa);
+  const Range pressure = Above(lowest_kpa, HighestKpa(run));
   read("source_pressure_kpa_gauge", pressure, gauge, run.channels.source_pressure_pa);
   read("inlet_pressure_kpa_gauge", pressure, gauge, run.channels.inlet_pressure_pa);
   read("temperature_k", {50, 2000}, std::identity(), run.channels.temperature_k);
   read("volume_ml", Above(0, 1e9), M3FromMl, run.channels.volume_m3);
   read("flow_l_per_min_anr", {-1e6, 1e6}, M3PerSFromLPerMin, run.channels.flow_m3_per_s);
   read("valve_opening", {0, 1}, std::identity(), run.channels.valve_opening);
-  read("source_setpoint_kpa_gauge", {0, kRigGaugeMaxKpa}, gauge, run.channels.source_setpoint_pa);
+  read("source_setpoint_kpa_gauge", {0, HighestKpa(run)}, gauge, run.channels.source_setpoint_pa);
   channels->Finish();
 }
 
@@ -161,7 +167,7 @@ void ReadInitial(Reader& owner, Run& run) {
   if (!initial) return;
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
   if (const auto kpa =
-          initial->OptionalNumber("pressure_kpa_gauge", Above(lowest_kpa, kRigGaugeMaxKpa)))
+          initial->OptionalNumber("pressure_kpa_gauge", Above(lowest_kpa, HighestKpa(run))))
     run.initial_pressure_pa = PaFromKpaGauge(*kpa, run.ambient);
   run.initial_temperature_k = initial->OptionalNumber("temperature_k", {150, 600});
   initial->Finish();
@@ -292,7 +298,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   CheckRising(reader, run.t_s);
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
   run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge",
-                                    {1.5 * lowest_kpa, kRigGaugeMaxKpa}, true, kReadingsMin),
+                                    {1.5 * lowest_kpa, HighestKpa(run)}, true, kReadingsMin),
                          [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
   CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
   FindInstants(reader, run);

@@ -97,9 +97,17 @@ TEST(ListsTest, ByCost) {
   EXPECT_EQ(least["price_basis"], "lower_bound");
   EXPECT_LE(least["designs"][0]["objective"], known["designs"][0]["objective"]);
   EXPECT_TRUE(least["unpriced"].contains("valve"));
+  // Of the same price the lightest first: a kilogram counts as a tenth of a cent.
   for (const Json& design : least["designs"])
-    EXPECT_NEAR(design["objective"].get<double>(), design["totals"]["cost_eur_min"].get<double>(),
+    EXPECT_NEAR(design["objective"].get<double>(),
+                design["totals"]["cost_eur_min"].get<double>() +
+                    1e-3 * design["totals"]["mass_kg"].get<double>(),
                 1e-9);
+  for (std::size_t i = 1; i < least["designs"].size(); ++i) {
+    const Json &lighter = least["designs"][i - 1]["totals"], &next = least["designs"][i]["totals"];
+    if (lighter["cost_eur_min"] != next["cost_eur_min"]) continue;
+    EXPECT_LE(lighter["mass_kg"], next["mass_kg"]);
+  }
   EXPECT_EQ(Refusals(known), "");
   EXPECT_EQ(Refusals(least), "");
 }

