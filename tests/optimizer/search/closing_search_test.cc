@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "tests/support/enumerated_search.h"
 #include "tests/support/small_catalogue.h"
@@ -71,9 +72,10 @@ TEST(ClosingSearch, ListsWhatEnumerationLists) {
 
 TEST(ClosingSearch, ListsWhatEnumerationListsOfSeveralGroups) {
   Tally tally;
-  for (int seed = 1; seed <= Draws(8); ++seed) {
-    SCOPED_TRACE(seed);
-    Compare(Drawn(seed, 2), tally);
+  const std::vector<int> seeds{5, 6, 8, 1, 2, 4, 3, 7};  // out of a reservoir, a minute each, last
+  for (int i = 0; i < Draws(8); ++i) {
+    SCOPED_TRACE(seeds[i]);
+    Compare(Drawn(seeds[i], 2), tally);
   }
   EXPECT_GT(tally.feasible, Draws(2));
 }
