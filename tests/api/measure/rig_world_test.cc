@@ -167,7 +167,7 @@ TEST(RigWorld, DenseGasIsNotIdeal) {
 }
 
 TEST(RigWorld, WhatCannotBeIsNamed) {
-  const auto first_error = [](Json document) {
+  const auto first_error = [](const Json& document) {
     const auto parsed = ParseMeasurement(document);
     const auto* errors = std::get_if<Errors>(&parsed);
     return errors != nullptr && !errors->empty() ? errors->front().pointer : std::string("none");
