@@ -11,7 +11,10 @@ using api::Json;
 
 class ResultsInGzip : public ::testing::Test {
  protected:
-  ResultsInGzip() { client_.set_decompress(false); }
+  ResultsInGzip() {
+    client_.set_decompress(false);
+    client_.set_read_timeout(320);
+  }
   httplib::Result Get(const std::string& path, const httplib::Headers& headers) {
     return client_.Get(path, headers);
   }
