@@ -153,6 +153,7 @@ TEST(Turns, WhoWaitsForAJobHoldsUpNobody) {
 TEST(Results, AreStoredBytesWithATag) {
   Service service;
   httplib::Client client("127.0.0.1", service.port());
+  client.set_read_timeout(60);
   const auto waited =
       client.Post("/v1/designs", {{"Prefer", "wait=60"}}, Exosuit(1.0).dump(), "application/json");
   ASSERT_EQ(waited->status, 200) << waited->body;
