@@ -158,7 +158,8 @@ TEST(Requirements, NamesEveryFieldOutOfRange) {
       {"/rise/to_fraction", "0", "> 0 and ≤ 1"},
       {"/fall/to_fraction", "1", "≥ 0 and < 1"},
       {"/supply/configurations", "[]", "1 to 7"},
-      {"/supply/configurations/1", "\"diesel\"", "tank, tank_and_pump or direct_pump"},
+      {"/supply/configurations/1", "\"diesel\"",
+       "compressor, mains, tank, tank_and_pump or direct_pump"},
       {"/supply/configurations/3", "\"co2\"", "\"co2\" is listed twice"},
       {"/supply/mains", "null", "required by the configuration mains"},
       {"/supply/mains/pressure_kpa_gauge", "0", "≥ 1"},
@@ -391,9 +392,8 @@ TEST(Requirements, WeightsMakeTheObjective) {
   EXPECT_EQ(request.problem.objective.mass_kg, 1.0);
   EXPECT_EQ(request.problem.objective.volume_l, 0.3);
   EXPECT_EQ(request.problem.objective.cost_eur, 0.0);
-  EXPECT_EQ(
-      Good(With(Requirements(), "/objective/minimize", "energy_wh")).problem.objective.energy_wh,
-      1.0);
+  const auto energy = Good(With(Requirements(), "/objective/minimize", "energy_wh"));
+  EXPECT_EQ(energy.problem.objective.energy_wh, 1.0);
 }
 
 }  // namespace
