@@ -50,15 +50,13 @@ T GroupSetup<T>::OperatingVolume() const {
 
 template <class T>
 T GroupSetup<T>::Content(const T& pressure_pa, const T& volume_m3, const T& temperature_k) const {
-  constexpr double kPerContent = kReferenceTemperatureK / kReferencePressurePa;
-  if (dense) return volume_m3 / dense->Volume(pressure_pa, temperature_k) * kPerContent;
+  if (dense) return volume_m3 / dense->Volume(pressure_pa, temperature_k) / kContentPerKelvin;
   return pressure_pa * volume_m3 / kReferencePressurePa * kReferenceTemperatureK / temperature_k;
 }
 
 template <class T>
 T GroupSetup<T>::Temperature(const T& pressure_pa, const T& volume_m3, const T& content_m3) const {
-  constexpr double kPerContent = kReferenceTemperatureK / kReferencePressurePa;
-  if (dense) return dense->Temperature(pressure_pa, volume_m3 / content_m3 * kPerContent);
+  if (dense) return dense->Temperature(pressure_pa, volume_m3 / (content_m3 * kContentPerKelvin));
   return pressure_pa * volume_m3 / (kReferencePressurePa * content_m3) * kReferenceTemperatureK;
 }
 

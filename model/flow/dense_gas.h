@@ -26,6 +26,9 @@ namespace plenum::model {
 // From this pressure on, absolute, a rig's gas is counted as dense.
 inline constexpr double kDenseFromPa = 2e6;
 
+// Content φ of a volume at the reference state, J/K per m³ ANR.
+inline constexpr double kContentPerKelvin = kReferencePressurePa / kReferenceTemperatureK;
+
 // T: double or a dual number (model/flow/scalar.h).
 template <class T>
 struct GasState {

@@ -15,8 +15,6 @@
 
 namespace plenum::model {
 
-inline constexpr double kContentPerKelvin = kReferencePressurePa / kReferenceTemperatureK;
-
 // 1/√Z, a factor on what flows out of gas at a state; 1 without a gas.
 template <class T>
 T Thinness(const DenseGas* gas, const T& pressure_pa, const T& temperature_k) {

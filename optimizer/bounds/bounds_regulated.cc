@@ -38,6 +38,21 @@ double FlowMax(const Problem& problem, Configuration configuration,
              : regulator.flow_max_m3_per_s;
 }
 
+// One actuator of a group, alone with those of its group on their regulator.
+struct Behind {
+  Behind(const Problem& problem, const Plan& plan, const Box& box, int g)
+      : count(FilledAtOnce(problem, g)),
+        elements(Elements(RegulatorAt(plan, box, g).flow, *box.lines[g], count)),
+        filling(problem, g, elements, FlowFactor(problem, GasOf(plan.configuration)),
+                box.lines[g]->chamber, kBoxSlack,
+                FlowMax(problem, plan.configuration, RegulatorAt(plan, box, g)) / count) {}
+  Behind(const Behind&) = delete;  // its filling looks at its elements
+
+  int count;
+  std::vector<model::FlowElement> elements;
+  Filling filling;
+};
+
 // Of the gas that a bottle gives, between the least and the most that it may.
 double ShareAt(const Problem& problem, const Plan& plan, double inlet_pa) {
   const double low = GasLeft(problem, plan.configuration, plan.bottle_range.low_pa);
@@ -51,14 +66,8 @@ double ShareAt(const Problem& problem, const Plan& plan, double inlet_pa) {
 bool LastAreInTime(const Problem& problem, const Plan& plan, const Box& box, const TankAt& fullest,
                    double drawn_m3) {
   const double source_pa = LeftPa(fullest, drawn_m3);
-  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
-    const Line& line = *box.lines[g];
-    const std::vector<model::FlowElement> elements =
-        Elements(RegulatorAt(plan, box, g).flow, line, FilledAtOnce(problem, g));
-    Filling filling(problem, g, elements, FlowFactor(problem, GasOf(plan.configuration)),
-                    line.chamber, kBoxSlack);
-    if (!filling.InTime(source_pa)) return false;
-  }
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g)
+    if (!Behind(problem, plan, box, g).filling.InTime(source_pa)) return false;
   return true;
 }
 
@@ -91,14 +100,10 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const Line& line = *box.lines[g];
     const ActuatorGroup& group = problem_.groups[g];
-    const int count = FilledAtOnce(problem_, g);
     const double strokes = group.gait.strokes_per_period;
-    const RegulatorCorner& regulator = RegulatorAt(plan_, box, g);
     const double high_pa = WindowAt(problem_, plan_, box, g).high_pa;
-    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
-    Filling filling(problem_, g, elements, FlowFactor(problem_, GasOf(plan_.configuration)),
-                    line.chamber, kBoxSlack,
-                    FlowMax(problem_, plan_.configuration, regulator) / count);
+    Behind behind(problem_, plan_, box, g);
+    Filling& filling = behind.filling;
     if (!filling.InTime(high_pa)) return Constraint::kRise;
     box.air_m3 += strokes * LeastAirPerStroke(problem_, g, line);
     if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
@@ -134,16 +139,10 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
 double Bounds::RegulatedFloor(const Box& box) const {
   double floor_pa = box.window.low_pa;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
-    const Line& line = *box.lines[g];
-    const int count = FilledAtOnce(problem_, g);
-    const RegulatorCorner& regulator = RegulatorAt(plan_, box, g);
     const Window window = WindowAt(problem_, plan_, box, g);
-    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
-    Filling filling(problem_, g, elements, FlowFactor(problem_, GasOf(plan_.configuration)),
-                    line.chamber, kBoxSlack,
-                    FlowMax(problem_, plan_.configuration, regulator) / count);
+    Behind behind(problem_, plan_, box, g);
     const auto late = [&](double source_pa) {
-      return filling.LatenessAtLeast(source_pa).value_or(0.0);
+      return behind.filling.LatenessAtLeast(source_pa).value_or(0.0);
     };
     const double from_pa = plan_.own_regulators ? window.low_pa : floor_pa;
     floor_pa =

@@ -81,8 +81,8 @@ class Corners {
   const Problem& problem_;
   const ProofPlan& plan_;
   KnownStrokes& strokes_;
-  bool shared_;  // groups inflate at once at the node behind a regulator
-  std::vector<std::vector<ItemAmounts>> amounts_;                       // per slot and choice
+  bool shared_;          // groups inflate at once at the node behind a regulator
+  SlotAmounts amounts_;  // per slot and choice
   std::vector<std::unordered_map<std::uint64_t, LeastAmounts>> least_;  // per slot, by range
   std::map<SlotRange, Packs> packs_;
   std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;

@@ -24,8 +24,6 @@
 
 namespace plenum::verify {
 
-using SlotAmounts = std::vector<std::vector<ItemAmounts>>;  // per slot and choice
-
 // Batteries of a range by energy.
 class Packs {
  public:

@@ -115,8 +115,8 @@ double GasOf(const Problem& problem, Family family, const ProofItem& item, doubl
                                                 inlet_pa, temperature_k);
 }
 
-std::vector<std::vector<ItemAmounts>> AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
-  std::vector<std::vector<ItemAmounts>> all;
+SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
+  SlotAmounts all;
   for (const ProofSlot& slot : plan.slots) {
     all.emplace_back();
     for (const ProofItem& item : slot.choices)

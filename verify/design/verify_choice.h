@@ -17,8 +17,8 @@ struct ItemAmounts {
 ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const ProofSlot& slot,
                           const ProofItem& item);
 
-// Of all choices, per slot.
-std::vector<std::vector<ItemAmounts>> AmountsOfAll(const Problem& problem, const ProofPlan& plan);
+using SlotAmounts = std::vector<std::vector<ItemAmounts>>;  // per slot and choice
+SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan);
 
 // Gas that bottles give down to an inlet pressure, m³ ANR.
 double GasOf(const Problem& problem, Family family, const ProofItem& item, double inlet_pa);

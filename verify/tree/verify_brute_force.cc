@@ -247,7 +247,7 @@ class Enumeration {
   std::set<std::size_t> seen_;
   std::optional<SeriesOfPlan> series_;
   Ranges single_;
-  std::vector<std::vector<ItemAmounts>> amounts_;
+  SlotAmounts amounts_;
   Sizer sizer_;
   BruteForceCounts counts_;
   long long looked_ = 0, sized_ = 0;
