@@ -53,14 +53,14 @@ catalog::Document ReadDocument(Reader reader) {
   return document;
 }
 
-Json OrNull(Json form) { return {{"anyOf", {std::move(form), {{"type", "null"}}}}}; }
+Json NullOr(Json form) { return {{"anyOf", {std::move(form), {{"type", "null"}}}}}; }
 
 Json FreeText(std::size_t longest, const char* description) {
   return {{"type", {"string", "null"}}, {"maxLength", longest}, {"description", description}};
 }
 
 Json ListForm(Json item, const char* description) {
-  return OrNull({{"type", "array"},
+  return NullOr({{"type", "array"},
                  {"maxItems", kListedMax},
                  {"items", std::move(item)},
                  {"description", description}});
@@ -119,7 +119,7 @@ Json DetailForms() {
       ObjectForm({{"supplier", text},
                   {"price", NumberForm(kPrice)},
                   {"currency", {{"enum", CurrencyNames()}}},
-                  {"pack", OrNull(NumberForm(kPack))},
+                  {"pack", NullOr(NumberForm(kPack))},
                   {"date", FreeText(kDateMax, "2024, 2024-05 or 2024-05-31; empty: not known")},
                   {"link", FreeText(kLinkMax, "where it is offered")}},
                  {"supplier", "price", "currency"});

@@ -153,13 +153,13 @@ void ReadCurve(Reader& reader, catalog::CurveKind kind, catalog::Part& part) {
 }
 
 // Provenance, source and uncertainty of a field of the part, null where it has none.
-struct Origin {
+struct NumberOrigin {
   catalog::Provenance* provenance = nullptr;
   std::string* source = nullptr;
   std::optional<double>* uncertainty = nullptr;  // null for texts
   bool is_printed = false;                       // derived by this reading
 };
-Origin OriginOf(catalog::Part& part, const std::string& field) {
+NumberOrigin OriginOf(catalog::Part& part, const std::string& field) {
   if (const auto found = part.numbers.find(field); found != part.numbers.end()) {
     catalog::Number& number = found->second;
     return {&number.provenance, &number.source, &number.uncertainty};
@@ -175,7 +175,7 @@ Origin OriginOf(catalog::Part& part, const std::string& field) {
   return {};
 }
 
-void ReadOrigin(Reader& given, const Origin& origin) {
+void ReadOrigin(Reader& given, const NumberOrigin& origin) {
   const auto known = catalog::ProvenanceNames();
   const std::string kind = given.Choice("kind", {known.begin(), known.end()}, "third_party");
   const Json* source = given.Raw("source");
@@ -206,7 +206,7 @@ void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part
   for (const std::string& field : fields) {
     auto given = provenance->OptionalObject(field);
     if (!given) continue;
-    Origin origin = OriginOf(part, field);
+    NumberOrigin origin = OriginOf(part, field);
     origin.is_printed = reader.Has(field) && IsPrinted(reader, field);
     ReadOrigin(*given, origin);
     if (origin.source == nullptr) provenance->Fail(field, "the part has no value of " + field);

@@ -197,18 +197,18 @@ class QueryReader {
 };
 
 // Places of parts in the table.
-using Rows = std::vector<std::uint32_t>;
+using RowNumbers = std::vector<std::uint32_t>;
 
 template <typename Keep>
-void Filter(Rows& rows, const Keep& keep) {
+void Filter(RowNumbers& rows, const Keep& keep) {
   std::erase_if(rows, [&](std::uint32_t row) { return !keep(row); });
 }
 
 using Grades = std::vector<std::uint8_t>;  // of all parts, by row
 
 // In order of id.
-Rows Matching(const PartQuery& query, const Grades& grades, const PartTable& table) {
-  Rows rows(table.rows().size());
+RowNumbers Matching(const PartQuery& query, const Grades& grades, const PartTable& table) {
+  RowNumbers rows(table.rows().size());
   std::iota(rows.begin(), rows.end(), 0u);
   if (!query.search.empty())
     Filter(rows, [&](std::uint32_t row) { return grades[row] != kNotFound; });
@@ -273,7 +273,7 @@ class Order {
 };
 
 // The row of a cursor's part among those that match.
-std::optional<std::uint32_t> RowOf(const std::string& id, const Rows& matching,
+std::optional<std::uint32_t> RowOf(const std::string& id, const RowNumbers& matching,
                                    const PartTable& table) {
   const auto found = std::lower_bound(
       matching.begin(), matching.end(), id,
@@ -297,7 +297,7 @@ Parsed<PartQuery> ParsePartQuery(const std::multimap<std::string, std::string>& 
 
 std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable& table) {
   const Grades grades = GradesOf(query, table);
-  Rows rows = Matching(query, grades, table);
+  RowNumbers rows = Matching(query, grades, table);
   std::sort(rows.begin(), rows.end(), Order(query, grades, table));
   std::vector<const catalog::Part*> selected;
   for (const std::uint32_t row : rows) selected.push_back(&table.rows()[row]);
@@ -325,9 +325,9 @@ Errors CheckColumns(const std::vector<std::string>& columns,
 Parsed<std::string> RenderPage(const PartQuery& query, const catalog::Revision& revision,
                                const PartTable& table) {
   const Grades grades = GradesOf(query, table);
-  const Rows matching = Matching(query, grades, table);
+  const RowNumbers matching = Matching(query, grades, table);
   const Order order(query, grades, table);
-  Rows rows = matching;
+  RowNumbers rows = matching;
   if (query.cursor) {
     const auto last = RowOf(query.cursor->id, matching, table);
     if (!last)

@@ -9,8 +9,8 @@ using catalog::ColumnRead;
 using catalog::Question;
 using catalog::TableReading;
 
-Json OrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-Json OrNull(int row) { return row == 0 ? Json(nullptr) : Json(row); }
+Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+Json RowOrNull(int row) { return row == 0 ? Json(nullptr) : Json(row); }
 
 Json RenderColumn(const ColumnRead& column) {
   Json targets = Json::array();
@@ -66,7 +66,7 @@ Json RenderQuestions(const TableReading& reading) {
   Json questions = Json::array();
   for (const Question& question : reading.questions)
     questions.push_back({{"option", question.option},
-                         {"heading", OrNull(question.heading)},
+                         {"heading", TextOrNull(question.heading)},
                          {"question", question.text},
                          {"answers", question.answers}});
   return questions;
@@ -80,10 +80,10 @@ Json RenderUnderstood(const TableReading& reading) {
   Json set = Json::object();
   for (const auto& [column, value] : reading.set) set[column] = value;
   return {{"as_exported", reading.as_exported},
-          {"encoding", OrNull(reading.encoding)},
-          {"delimiter", OrNull(reading.delimiter)},
-          {"header_row", OrNull(reading.header_row)},
-          {"units_row", OrNull(reading.units_row)},
+          {"encoding", TextOrNull(reading.encoding)},
+          {"delimiter", TextOrNull(reading.delimiter)},
+          {"header_row", RowOrNull(reading.header_row)},
+          {"units_row", RowOrNull(reading.units_row)},
           {"ids", reading.makes_ids ? "made of manufacturer and part_number" : "given"},
           {"columns", std::move(columns)},
           {"set", std::move(set)},

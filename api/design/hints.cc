@@ -41,7 +41,7 @@ Problem With(const Problem& problem, Configuration configuration,
   return other;
 }
 
-std::string Words(Configuration configuration, double objective, const double* best) {
+std::string HintWords(Configuration configuration, double objective, const double* best) {
   const std::string name = optimizer::Name(configuration);
   if (best == nullptr)
     return "the configuration " + name +
@@ -79,7 +79,7 @@ void AddHints(const DesignRequest& request, const optimizer::Answer& answer,
     const double objective = other.designs.front().objective;
     hints.push_back({{"configuration", optimizer::Name(configuration)},
                      {"objective", Number(objective)},
-                     {"words", Words(configuration, objective, best)}});
+                     {"words", HintWords(configuration, objective, best)}});
   }
   if (!hints.empty()) document["hints"] = std::move(hints);
 }

@@ -2,6 +2,7 @@
 #ifndef PLENUM_API_JSON_JSON_H_
 #define PLENUM_API_JSON_JSON_H_
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -9,6 +10,8 @@
 #include <vector>
 
 namespace plenum::api {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 using Json = nlohmann::ordered_json;
 

@@ -17,8 +17,6 @@
 namespace plenum::api {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 const Json kNullForm = {{"type", "null"}};
 const Json kTextForm = {{"type", "string"}, {"minLength", 1}, {"maxLength", kTextCharactersMax}};
 

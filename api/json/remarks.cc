@@ -5,7 +5,7 @@
 namespace plenum::api {
 namespace {
 
-thread_local RemarkRecorder* current = nullptr;
+thread_local RemarkRecorder* current_remarks = nullptr;
 
 }  // namespace
 
@@ -31,11 +31,11 @@ void Remarks::Append(const Remarks& more) {
   notes.insert(notes.end(), more.notes.begin(), more.notes.end());
 }
 
-RemarkRecorder::RemarkRecorder() : outer_(std::exchange(current, this)) {
+RemarkRecorder::RemarkRecorder() : outer_(std::exchange(current_remarks, this)) {
   if (outer_ != nullptr) ambient_kpa_abs_ = outer_->ambient_kpa_abs_;
 }
-RemarkRecorder::~RemarkRecorder() { current = outer_; }
-RemarkRecorder* RemarkRecorder::Current() { return current; }
+RemarkRecorder::~RemarkRecorder() { current_remarks = outer_; }
+RemarkRecorder* RemarkRecorder::Current() { return current_remarks; }
 
 void RemarkRecorder::Add(Json& list, const std::string& pointer, const Json& remark) {
   Json placed = {{"pointer", pointer}};

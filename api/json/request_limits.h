@@ -13,6 +13,7 @@ inline constexpr std::size_t kJsonBytesMax = 16 << 20;
 inline constexpr std::size_t kResultBytesMax = 1 << 30;   // of an answer with its record, on a disk
 inline constexpr std::size_t kErrorsCollectedMax = 1000;  // of one request
 inline constexpr std::size_t kErrorsReportedMax = 100;    // of those, with a count of the rest
+inline constexpr double kTimeMaxS = 1e6;                  // of a reading or a command
 inline constexpr int kDiagnosisSecondsMax = 3600;
 inline constexpr std::size_t kTextCharactersMax = 200;
 inline constexpr std::size_t kGroupsMax = 16;

@@ -24,9 +24,7 @@ using calibration::Run;
 using calibration::Supply;
 
 constexpr std::size_t kReadingsMin = 8;
-constexpr double kTimeMaxS = 1e6;
 constexpr double kAbsurd = 3.0;  // a reading that many times above all that could cause it
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Collects errors of one list up to a number, then says how many more there are.
 class SeriesErrors {

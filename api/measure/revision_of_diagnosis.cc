@@ -9,12 +9,12 @@ namespace plenum::api {
 namespace {
 
 // The name of an effect's parameter in the contract and how large 1 in SI is in its unit.
-struct Unit {
+struct UnitOfParameter {
   std::string name;
   double size = 1.0;
 };
 
-Unit UnitOf(const model::Effect& effect, std::size_t parameter) {
+UnitOfParameter UnitOfFitted(const model::Effect& effect, std::size_t parameter) {
   model::Effect one = effect;
   one.parameters.assign(effect.parameters.size(), 0.0);
   one.parameters[parameter] = 1.0;
@@ -45,7 +45,7 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
     model.effects.push_back(fitted.effect);
     for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
       if (model::OfEachRun(fitted.effect.spec->parameters[i])) continue;
-      const Unit unit = UnitOf(fitted.effect, i);
+      const UnitOfParameter unit = UnitOfFitted(fitted.effect, i);
       model.covariance.parameters.push_back(unit.name);
       sizes.push_back(unit.size);
       kept.push_back(row++);

@@ -31,11 +31,6 @@ struct Strokes {
   double fill_s = 0.0, empty_s = 0.0;  // 0: none
 };
 
-double NumberOf(const catalog::Part& part, const char* field) {
-  const auto number = part.numbers.find(field);
-  return number == part.numbers.end() ? 0.0 : number->second.value;
-}
-
 double BottleFor(const TestSensor& sensor, double litres_least) {
   if (sensor.bottle_l) return *sensor.bottle_l;
   const auto bottle = std::lower_bound(kBottlesL.begin(), kBottlesL.end(), litres_least);

@@ -38,6 +38,11 @@ Parsed<TestSensor> ParseTestSensor(const std::multimap<std::string, std::string>
   return sensor;
 }
 
+double NumberOf(const catalog::Part& part, const char* field) {
+  const auto number = part.numbers.find(field);
+  return number == part.numbers.end() ? 0.0 : number->second.value;
+}
+
 double ReadingNoisePa(const TestSensor& sensor, double gauge_pa) {
   const double noise_kpa = std::hypot(sensor.noise_kpa, sensor.resolution_kpa / std::sqrt(12.0));
   return std::max(noise_kpa * kPaPerKpa, kLeastShare * gauge_pa);

@@ -8,6 +8,7 @@
 
 #include "api/json/json.h"
 #include "api/json/range.h"
+#include "catalog/fields/part.h"
 
 namespace plenum::api {
 
@@ -24,6 +25,9 @@ inline Range BottleRange() { return {0.01, 1000}; }
 
 // Query parameters of a protocol: sensor_noise_kpa, sensor_resolution_kpa, sampling_hz, bottle_l.
 Parsed<TestSensor> ParseTestSensor(const std::multimap<std::string, std::string>& query);
+
+// 0 where the part does not have it.
+double NumberOf(const catalog::Part& part, const char* field);
 
 // One standard deviation of a reading, Pa: noise and rounding together, at least what a diagnosis
 // takes for the least noise of a sensor whose largest pressure is `gauge_pa`.

@@ -5,14 +5,14 @@
 namespace plenum::api {
 namespace {
 
-constexpr double kScaleG = 1.0;         // least step of a kitchen scale
-constexpr double kWaterShare = 0.002;   // density with temperature, bubbles, drops left
-constexpr double kMeterShare = 0.01;    // of a multimeter: current, voltage
-constexpr double kClockShare = 0.002;   // of hours of discharge, where its end is seen
-constexpr double kGaugeShare = 0.016;   // of a filling station's gauge, class 1.6
-constexpr double kBottleShare = 0.002;  // uncertainty of the known volume
-constexpr double kSharedKpa = 400.0;    // in the known volume before it is opened
-constexpr double kReadings = 10.0;      // that are averaged: more share their error
+constexpr double kScaleG = 1.0;              // least step of a kitchen scale
+constexpr double kWaterShare = 0.002;        // density with temperature, bubbles, drops left
+constexpr double kMeterShare = 0.01;         // of a multimeter: current, voltage
+constexpr double kClockShare = 0.002;        // of hours of discharge, where its end is seen
+constexpr double kGaugeShare = 0.016;        // of a filling station's gauge, class 1.6
+constexpr double kKnownVolumeShare = 0.002;  // uncertainty of the known volume
+constexpr double kSharedKpa = 400.0;         // in the known volume before it is opened
+constexpr double kReadings = 10.0;           // that are averaged: more share their error
 
 constexpr std::string_view kWeigh =
     "Weigh the bottle empty and full of water, with what lies between it and the part: its volume "
@@ -63,7 +63,7 @@ constexpr std::string_view kPumpRead =
 constexpr std::string_view kWater =
     "Weigh the reservoir dry, fill it with water to the port without bubbles, weigh it again: the "
     "difference is its volume, 1 g for 1 mL (0.998 g at 20 °C).";
-constexpr std::string_view kShare =
+constexpr std::string_view kShareStep =
     "Where no water may come in: pressurise a bottle of known volume V1 to p1, connect it to the "
     "vessel at ambient pressure, wait until the reading stands, read p2 (gauge): "
     "V2 = V1·(p1 − p2)/p2.";
@@ -109,17 +109,12 @@ const std::vector<Steps>& AllSteps() {
       {"bottle_test", "fitting", {kWeigh, kFitting, kSource, kWatch, kRecord}},
       {"bottle_test", "regulator", {kWeigh, kRegulator, kSource, kWatch, kRecordFilling}},
       {"bottle_test", "compressor", {kWeigh, kPump, kPumpRecord, kPumpHold, kPumpRead}},
-      {"volume_test", "reservoir", {kWater, kShare, kReservoirMean}},
-      {"volume_test", "cylinder", {kCylinder, kShare, kCylinderMean, kCylinderFill}},
+      {"volume_test", "reservoir", {kWater, kShareStep, kReservoirMean}},
+      {"volume_test", "cylinder", {kCylinder, kShareStep, kCylinderMean, kCylinderFill}},
       {"duty_test", "compressor", {kDuty, kDutyHeat, kDutyMost}},
       {"switching_test", "valve", {kSwitching, kCoil}},
       {"discharge_test", "battery", {kDischarge, kCapacity}}};
   return kAll;
-}
-
-double NumberOf(const catalog::Part& part, const char* field) {
-  const auto number = part.numbers.find(field);
-  return number == part.numbers.end() ? 0.0 : number->second.value;
 }
 
 // Of two weighings.
@@ -137,7 +132,7 @@ double BySharing(double volume_ml, const TestSensor& sensor) {
   };
   const double by_before = volume(kSharedKpa + noise_kpa, shared_kpa) - volume_ml;
   const double by_after = volume(kSharedKpa, shared_kpa + noise_kpa) - volume_ml;
-  return std::hypot(std::hypot(by_before, by_after) / volume_ml, kBottleShare);
+  return std::hypot(std::hypot(by_before, by_after) / volume_ml, kKnownVolumeShare);
 }
 
 std::vector<ReadNumber> OfVolume(const char* field, double volume_ml, const TestSensor& sensor) {

@@ -15,13 +15,13 @@
 namespace plenum::api {
 namespace {
 
-struct Unit {
+struct ParameterUnit {
   std::string_view model, contract;  // endings of a parameter's name
   double factor;                     // of the contract's unit in the model's
 };
 
 // The first that fits counts; what none fits keeps its name.
-constexpr auto kUnits = std::to_array<Unit>({
+constexpr auto kParameterUnits = std::to_array<ParameterUnit>({
     {"sonic_conductance_m3_per_s_pa", "sonic_conductance_dm3_per_s_bar", kM3PerSPaPerDm3PerSBar},
     {"conductance_m3_per_s_pa", "conductance_l_per_min_bar", kM3PerSPerLPerMin / 1e5},
     {"flow_m3_per_s", "flow_l_per_min_anr", kM3PerSPerLPerMin},
@@ -31,22 +31,15 @@ constexpr auto kUnits = std::to_array<Unit>({
 });
 
 // A parameter as the contract has it.
-struct Parameter {
+struct DescribedParameter {
   std::string name;
   double factor = 1.0;
   Range range;
 };
 
-// Twelve digits: a bound is shown without the rounding of its conversion.
-double Rounded(double value) {
-  if (value == 0.0) return value;
-  const double scale = std::pow(10.0, 11.0 - std::floor(std::log10(std::abs(value))));
-  return std::isfinite(scale) ? std::round(value * scale) / scale : value;
-}
-
-Parameter ParameterOf(const model::ParameterSpec& spec) {
-  Parameter parameter{std::string(spec.name), 1.0, {}};
-  for (const Unit& unit : kUnits) {
+DescribedParameter ParameterOf(const model::ParameterSpec& spec) {
+  DescribedParameter parameter{std::string(spec.name), 1.0, {}};
+  for (const ParameterUnit& unit : kParameterUnits) {
     if (!spec.name.ends_with(unit.model)) continue;
     parameter.name = std::string(spec.name.substr(0, spec.name.size() - unit.model.size()));
     parameter.name += unit.contract;
@@ -95,7 +88,7 @@ model::Effect ReadParameters(Reader parameters, const std::string& id) {
   if (law.empty() && !laws.empty()) return {};  // which parameters belong there is not known
   model::Effect effect{model::FindEffect(id, law), {}};
   for (const model::ParameterSpec& spec : effect.spec->parameters) {
-    const Parameter parameter = ParameterOf(spec);
+    const DescribedParameter parameter = ParameterOf(spec);
     const double value = parameters.Number(parameter.name, parameter.range) * parameter.factor;
     effect.parameters.push_back(std::clamp(value, spec.low, spec.high));
   }
@@ -114,7 +107,7 @@ Json EffectsForm() {
     // The first law of an effect is the one that need not be named.
     if (!spec->law.empty() && spec->law != LawsOf(spec->id).front()) required.push_back("law");
     for (const model::ParameterSpec& number : spec->parameters) {
-      const Parameter parameter = ParameterOf(number);
+      const DescribedParameter parameter = ParameterOf(number);
       parameters["properties"][parameter.name] =
           NumberOrQuantityForm(parameter.name, parameter.range);
       required.push_back(parameter.name);
@@ -155,7 +148,7 @@ std::vector<model::Effect> ReadEffects(Reader& owner, std::span<const model::Eff
 }
 
 ContractParameter InContract(const model::ParameterSpec& spec) {
-  Parameter parameter = ParameterOf(spec);
+  DescribedParameter parameter = ParameterOf(spec);
   return {std::move(parameter.name), parameter.factor};
 }
 
@@ -165,7 +158,7 @@ Json RenderEffects(std::span<const model::Effect> effects) {
     Json parameters = Json::object();
     if (!effect.spec->law.empty()) parameters["law"] = effect.spec->law;
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
-      const Parameter parameter = ParameterOf(effect.spec->parameters[i]);
+      const DescribedParameter parameter = ParameterOf(effect.spec->parameters[i]);
       parameters[parameter.name] = Number(effect.parameters[i] / parameter.factor);
     }
     list.push_back({{"id", effect.spec->id}, {"parameters", std::move(parameters)}});

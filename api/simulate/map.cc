@@ -29,7 +29,7 @@ struct Grid {
   Remarks remarks;
 };
 
-struct Point {
+struct MapPoint {
   double source, operating, expansion, critical;  // ratios
   std::optional<double> compressor_flow, reservoir_volume;
   int count = 1;
@@ -39,7 +39,7 @@ struct Times {
   double rise, fall;  // +∞ where never reached
 };
 
-Times ConstantSource(const Point& point, const Fractions& fractions) {
+Times ConstantSource(const MapPoint& point, const Fractions& fractions) {
   const model::NormalisedStroke stroke{point.operating, point.expansion, point.critical};
   const double span = point.operating - 1.0;
   return {model::NormalisedRiseTime(stroke, point.source, 1.0, 1.0 + fractions.rise * span),
@@ -47,7 +47,7 @@ Times ConstantSource(const Point& point, const Fractions& fractions) {
 }
 
 // A rig in which one second is one unit of normalised time: C·P0/V0 = 1/s at P0 and T0.
-Times CompressorSource(const Point& point, const Fractions& fractions, Deadline deadline) {
+Times CompressorSource(const MapPoint& point, const Fractions& fractions, Deadline deadline) {
   constexpr double kNoLimitPa = 1e12;
   constexpr double kVolumeM3 = 1e-4;
   constexpr double kConductance = kVolumeM3 / model::kReferencePressurePa;
@@ -81,7 +81,7 @@ Times CompressorSource(const Point& point, const Fractions& fractions, Deadline 
   return {stroke.rise_time_s, stroke.fall_time_s};
 }
 
-Json RenderPoint(const Point& point, const Times& times) {
+Json RenderPoint(const MapPoint& point, const Times& times) {
   Json row = {{"source_pressure_ratio", Number(point.source)},
               {"operating_pressure_ratio", Number(point.operating)},
               {"expansion_ratio", Number(point.expansion)},
@@ -158,7 +158,7 @@ void ForEachPoint(const Grid& grid, auto&& visit) {
           for (const double flow : has_compressor ? grid.compressor_flow : none)
             for (const double volume : has_compressor ? grid.reservoir_volume : none)
               for (const double count : has_compressor ? grid.count : none) {
-                Point point{source, operating, expansion, critical, {}, {}, 1};
+                MapPoint point{source, operating, expansion, critical, {}, {}, 1};
                 if (has_compressor) {
                   point.compressor_flow = flow;
                   point.reservoir_volume = volume;
@@ -176,7 +176,7 @@ Parsed<Json> RunMap(const Json& request) {
   const Grid& grid = std::get<Grid>(parsed);
   const Deadline deadline = std::chrono::steady_clock::now() + kTimeLimit;
   Json rows = Json::array();
-  ForEachPoint(grid, [&](const Point& point) {
+  ForEachPoint(grid, [&](const MapPoint& point) {
     if (IsPast(deadline)) return;
     const Times times = point.compressor_flow ? CompressorSource(point, grid.fractions, deadline)
                                               : ConstantSource(point, grid.fractions);

@@ -12,8 +12,6 @@
 namespace plenum::api {
 namespace {
 
-constexpr double kTimeMaxS = 1e6;
-
 // A line under construction: elements are added from source to actuator.
 class LineBuilder {
  public:

@@ -197,7 +197,7 @@ void Bounds::AddLines(Box& box) const {
 }
 
 double Bounds::EnergyShare(double energy_j) const {
-  return problem_.objective.energy_wh * energy_j / 3600.0;
+  return problem_.objective.energy_wh * energy_j / kJoulePerWattHour;
 }
 
 double CoilEnergy(const Problem& problem, const Box& box) {

@@ -184,7 +184,6 @@ OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
 template <class T>
 T ObjectiveValue(const Problem& problem, const Candidate& candidate,
                  const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
-  constexpr double kJoulePerWattHour = 3600.0;
   return ObjectiveOf(
              problem.objective,
              TotalAmounts(problem, candidate, Filled(problem, candidate, point, evaluation))) +

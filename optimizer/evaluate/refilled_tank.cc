@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kTolerance = 1e-9;        // of the fill
 constexpr double kAboveKept = 1.0 + 1e-4;  // a fill that is just what is kept decides nothing
-constexpr double kJoulePerWattHour = 3600.0;
 
 const model::Compressor& PumpOf(const Problem& problem, const Candidate& candidate) {
   return PumpsOf(problem)[candidate.compressor.index];

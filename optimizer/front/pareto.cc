@@ -23,7 +23,6 @@ constexpr double kCurveResolution = 1e-2;
 constexpr double kSearchShare = 0.5;  // of the time that is left, for one search
 constexpr double kSearchLeastS = 0.5;
 constexpr double kPricedEur = 1e12;  // a limit that only asks for prices
-constexpr double kJoulePerWattHour = 3600.0;
 
 // The amount that is minimised; limits are laid on the others. Energy depends on the settings and
 // has no limit of its own; a least mass is what the search proves soonest.

@@ -3,11 +3,7 @@
 #include <cmath>
 
 namespace plenum::optimizer {
-namespace {
-
-constexpr double kJoulePerWattHour = 3600.0;
-
-}  // namespace
+namespace {}  // namespace
 
 Objective ObjectiveOn(Amount amount) {
   switch (amount) {

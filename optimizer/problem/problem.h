@@ -24,6 +24,8 @@
 
 namespace plenum::optimizer {
 
+inline constexpr double kJoulePerWattHour = 3600.0;
+
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 enum class NlpSolver { kIpopt, kNlopt };

@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kLookEvery = std::chrono::milliseconds(2);
+constexpr auto kTryEvery = std::chrono::milliseconds(2);
 constexpr std::chrono::milliseconds kLockPatience{100};  // for other processes
 constexpr std::chrono::milliseconds kLeaveAlone{500};    // a file that they keep
 constexpr std::int64_t kNsPerS = 1'000'000'000;
@@ -94,7 +94,7 @@ template <typename Ask, typename Look>
 auto SharedCatalog::AskOrLook(Ask ask, Look look) {
   std::unique_lock lock(mutex_, std::defer_lock);
   const auto until = Clock::now() + kTurnPatience;
-  while (!lock.try_lock_for(kLookEvery)) {
+  while (!lock.try_lock_for(kTryEvery)) {
     if (const auto published = WhatIsPublished()) return look(*published);
     if (Clock::now() > until) ThrowBusy();
   }

@@ -172,14 +172,14 @@ int Answered(const CatalogOptions& options) {
   return kAnswered;
 }
 
-using Table = std::vector<Option>;
+using OptionTable = std::vector<Option>;
 
 // A command below `catalog`, with options of its own.
 Command Below(const char* name, const char* help, const char* example,
               int (*run)(const CatalogOptions&),
-              const std::function<Table(CatalogOptions&)>& table) {
+              const std::function<OptionTable(CatalogOptions&)>& table) {
   auto options = std::make_shared<CatalogOptions>();
-  Table all = table(*options);
+  OptionTable all = table(*options);
   all.insert(all.begin(), CatalogOption(options->catalog));
   return {name, help, example, std::move(all), [options, run] { return run(*options); }};
 }
@@ -201,7 +201,7 @@ Option RevisionOption(CatalogOptions& options) {
           {.value_name = "N"}};
 }
 
-Table ListTable(CatalogOptions& options) {
+OptionTable ListTable(CatalogOptions& options) {
   return {
       Family(options),
       {"--where",
@@ -226,15 +226,15 @@ Table ListTable(CatalogOptions& options) {
       {"--csv", "CSV, as import takes it", &options.csv, {.excludes = "--json"}}};
 }
 
-Table ShowTable(CatalogOptions& options) {
+OptionTable ShowTable(CatalogOptions& options) {
   return {Argument("ID", "Its id", &options.id), RevisionOption(options), JsonFlag(options.json)};
 }
 
-Table CompareTable(CatalogOptions& options) {
+OptionTable CompareTable(CatalogOptions& options) {
   return {Argument("ID", "Ids of two to eight parts", &options.list.ids), JsonFlag(options.json)};
 }
 
-Table HistoryTable(CatalogOptions& options) {
+OptionTable HistoryTable(CatalogOptions& options) {
   return {{"ID", "A part's id; all writes without", &options.id, {.value_name = ""}},
           {"--limit",
            "Newest N",
@@ -243,7 +243,7 @@ Table HistoryTable(CatalogOptions& options) {
           JsonFlag(options.json)};
 }
 
-Table ImportOptions(CatalogOptions& options) {
+OptionTable ImportOptions(CatalogOptions& options) {
   catalog::TableOptions& table = options.table;
   return {
       RequiredFamily(options),
@@ -277,12 +277,12 @@ Table ImportOptions(CatalogOptions& options) {
       JsonFlag(options.json)};
 }
 
-Table CopyTable(CatalogOptions& options) {
+OptionTable CopyTable(CatalogOptions& options) {
   return {Argument("FROM", "A file, or postgresql://USER@HOST/DATABASE", &options.file),
           Argument("TO", "The same; it must hold no catalogue yet", &options.id)};
 }
 
-Table UpdateTable(CatalogOptions& options) {
+OptionTable UpdateTable(CatalogOptions& options) {
   return {{"--from",
            "The catalogue with the newer rows; without it the one that was installed with plenum",
            &options.file,
@@ -292,22 +292,25 @@ Table UpdateTable(CatalogOptions& options) {
 }
 
 // One argument by its place.
-std::function<Table(CatalogOptions&)> FileTable(const char* help) {
-  return
-      [help](CatalogOptions& options) -> Table { return {Argument("FILE", help, &options.file)}; };
+std::function<OptionTable(CatalogOptions&)> FileTable(const char* help) {
+  return [help](CatalogOptions& options) -> OptionTable {
+    return {Argument("FILE", help, &options.file)};
+  };
 }
 
 }  // namespace
 
 Command CatalogCommand() {
-  const auto id = [](CatalogOptions& options) -> Table {
+  const auto id = [](CatalogOptions& options) -> OptionTable {
     return {Argument("ID", "Its id", &options.id)};
   };
-  const auto revision = [](CatalogOptions& options) -> Table {
+  const auto revision = [](CatalogOptions& options) -> OptionTable {
     return {Argument("REVISION", "Its number, see history", &options.revision)};
   };
-  const auto family = [](CatalogOptions& options) -> Table { return {RequiredFamily(options)}; };
-  const auto json = [](CatalogOptions& options) -> Table { return {JsonFlag(options.json)}; };
+  const auto family = [](CatalogOptions& options) -> OptionTable {
+    return {RequiredFamily(options)};
+  };
+  const auto json = [](CatalogOptions& options) -> OptionTable { return {JsonFlag(options.json)}; };
   return {
       "catalog",
       "The parts catalogue",

@@ -83,7 +83,7 @@ std::vector<catalog::NewJob> JobsOf(catalog::SweepRecord& sweep,
   return jobs;
 }
 
-std::string ListOf(const api::Errors& errors) {
+std::string WordsOf(const api::Errors& errors) {
   std::string list;
   for (const api::Error& error : errors)
     list += (list.empty() ? "" : "; ") + (error.pointer.empty() ? "" : error.pointer + ": ") +

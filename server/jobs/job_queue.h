@@ -154,7 +154,7 @@ std::vector<catalog::NewJob> JobsOf(catalog::SweepRecord& sweep,
 api::Parsed<api::Json> OutcomeOf(const Work& work, const catalog::JobOrder& order,
                                  const std::string& id, const JobControl& control);
 // In one line, for people.
-std::string ListOf(const api::Errors& errors);
+std::string WordsOf(const api::Errors& errors);
 
 // False, and a line of the log that begins with `about`, where a store cannot do it now: the
 // service goes on without.

@@ -18,8 +18,8 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kKeepEvery{1'000};
 constexpr std::chrono::seconds kDropEvery{60};
-constexpr std::chrono::minutes kEndPatience{10};  // for a server that is away
-constexpr std::chrono::seconds kStopPatience{5};  // where this process ends
+constexpr std::chrono::minutes kEndPatience{10};        // for a server that is away
+constexpr std::chrono::seconds kWorkerStopPatience{5};  // where this process ends
 
 // "host 1234"
 std::string NameOfProcess() {
@@ -125,7 +125,7 @@ void JobWorker::Run(catalog::SharedJobStore& store, const AttemptPtr& attempt) {
   }
   if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
     record.status = JobStatus::kFailed;
-    record.failure = ListOf(*errors);
+    record.failure = WordsOf(*errors);
   } else {
     record.result = TextOf(std::get<api::Json>(outcome));
   }
@@ -177,7 +177,7 @@ void JobWorker::End(catalog::SharedJobStore& store, Attempt& attempt, catalog::J
         outcome.failure = "its result cannot be stored; the log of its worker says more";
       }
     }
-    if (stopping_ && Clock::now() > until - kEndPatience + kStopPatience) return;
+    if (stopping_ && Clock::now() > until - kEndPatience + kWorkerStopPatience) return;
     std::this_thread::sleep_for(std::min(kKeepEvery, options_.pause));
     const std::lock_guard lock(mutex_);
     if (attempt.lost) return;

@@ -332,7 +332,7 @@ void Jobs::Run(const EntryPtr& entry) {
   if (entry->interrupted && !entry->cancelled) {
     TryStore({{"job", id}}, [&] { store_.Requeue(id); });
   } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
-    End({entry}, JobStatus::kFailed, nullptr, ListOf(*errors));
+    End({entry}, JobStatus::kFailed, nullptr, WordsOf(*errors));
   } else {
     End({entry}, entry->cancelled ? JobStatus::kCancelled : JobStatus::kDone,
         std::get<api::Json>(outcome), "");

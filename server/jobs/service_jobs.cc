@@ -18,7 +18,7 @@
 namespace plenum::server {
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{250};
+constexpr std::chrono::milliseconds kLookForJobsEvery{250};
 
 class OwnJobs : public ServiceJobs {
  public:
@@ -117,7 +117,7 @@ class JobsOfServer : public ServiceJobs {
       }
       lock.lock();
       if (std::exchange(known, now) != now && on_change_) on_change_();
-      if (!over_) look_.wait_for(lock, kLookEvery);
+      if (!over_) look_.wait_for(lock, kLookForJobsEvery);
     }
   }
 

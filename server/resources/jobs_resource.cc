@@ -100,7 +100,7 @@ std::string ETagOf(const JobsResource& resource, const Job& job) {
 }
 
 // Blanks and quotation marks around it off, in lower case.
-std::string Bare(std::string_view text) {
+std::string Unquoted(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\"");
   if (first == std::string_view::npos) return "";
   std::string bare(text.substr(first, text.find_last_not_of(" \t\"") - first + 1));
@@ -110,16 +110,16 @@ std::string Bare(std::string_view text) {
 }
 
 // What a client that waited gets.
-Reply ResultReply(const JobsResource& resource, Job job, int seconds, bool as_gzip) {
+Reply ResultReply(const JobsResource& resource, Job job, int waited_s, bool as_gzip) {
   resource.jobs->AddResult(job);
   if (job.status == JobStatus::kFailed) return ProblemReply(500, WhyFailed(resource, job));
   if (!job.result) return ProblemReply(409, "the job was cancelled before it began");
   Reply reply = Around(resource, job, "", "\n", as_gzip);
-  reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
+  reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(waited_s));
   return reply;
 }
 
-Reply AcceptedReply(const JobsResource& resource, const std::string& id) {
+Reply JobAccepted(const JobsResource& resource, const std::string& id) {
   const auto job = resource.jobs->Look(id);
   auto reply = JsonReply(
       202, job ? Short(resource, *job) : api::Json{{"id", id}, {"links", Links(resource, id)}});
@@ -149,8 +149,9 @@ int WaitSeconds(const Call& call) {
     const std::string_view preference = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     const std::size_t equal = preference.find('=');
-    if (equal == std::string_view::npos || Bare(preference.substr(0, equal)) != "wait") continue;
-    const std::string value = Bare(preference.substr(equal + 1));
+    if (equal == std::string_view::npos || Unquoted(preference.substr(0, equal)) != "wait")
+      continue;
+    const std::string value = Unquoted(preference.substr(equal + 1));
     int seconds = 0;
     const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
     if (error == std::errc() && last == value.data() + value.size() && seconds >= 0)
@@ -197,14 +198,14 @@ Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder
   if (status == Submitted::kClientRefused) return FullQueue(resource, true);
   const int seconds = WaitSeconds(call);
   auto turn = seconds > 0 ? EnterWaiting() : nullptr;
-  if (!turn) return AcceptedReply(resource, id);
+  if (!turn) return JobAccepted(resource, id);
   Reply reply;
   reply.later = [resource, id = id, seconds, turn = std::move(turn), as_gzip = WantsGzip(call),
                  until = Clock::now() + std::chrono::seconds(seconds)]() -> std::optional<Reply> {
     const bool over = Clock::now() >= until || resource.jobs->Stopping();
     const auto job = resource.jobs->Look(id);
     if (job && !Ended(job->status) && !over) return std::nullopt;
-    if (!job || !Ended(job->status)) return AcceptedReply(resource, id);
+    if (!job || !Ended(job->status)) return JobAccepted(resource, id);
     auto ended = ResultReply(resource, *job, seconds, as_gzip);
     ended.headers.emplace_back("Location", SelfOf(resource, id));
     return ended;
@@ -258,7 +259,7 @@ Reply DoJobAgain(const JobsResource& resource, const Call& call) {
     case Asked::kQueued:
       break;
   }
-  return AcceptedReply(resource, id);
+  return JobAccepted(resource, id);
 }
 
 Reply CancelJob(const JobsResource& resource, const Call& call) {

@@ -1,7 +1,10 @@
 #include "server/resources/routes.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <memory>
+#include <mutex>
 
 #include "api/catalogue/families.h"
 #include "api/design/given/evaluation.h"
@@ -194,6 +197,18 @@ void AddPages(const Services& services, std::vector<Route>& routes) {
   routes.push_back({"GET", "/openapi", "this description, for reading", Access::kOpen, GetApiPage});
 }
 
+// Made when it is first asked for: it takes longer than all else of a start.
+std::function<Reply(const Call&)> Description(const std::vector<Route>& routes) {
+  struct Made {
+    std::once_flag once;
+    Reply reply;
+  };
+  return [routes, made = std::make_shared<Made>()](const Call&) {
+    std::call_once(made->once, [&] { made->reply = Shared(JsonReply(200, OpenApi(routes))); });
+    return made->reply;
+  };
+}
+
 }  // namespace
 
 std::vector<Route> Routes(const Services& services) {
@@ -282,9 +297,7 @@ std::vector<Route> Routes(const Services& services) {
   routes.back().answer = [reply = Shared(JsonReply(200, RouteTable(routes)))](const Call&) {
     return reply;
   };
-  (routes.end() - 2)->answer = [reply = Shared(JsonReply(200, OpenApi(routes)))](const Call&) {
-    return reply;
-  };
+  (routes.end() - 2)->answer = Description(routes);
   return routes;
 }
 

@@ -20,7 +20,7 @@ using catalog::JobRecord;
 using catalog::SweepRecord;
 
 constexpr char kPath[] = "/v1/sweeps/";
-constexpr char kCsv[] = "text/csv";
+constexpr char kCsvType[] = "text/csv";
 
 JobStatus StatusOf(const SweepRecord& sweep) {
   const auto any = [&](JobStatus status) {
@@ -91,7 +91,7 @@ api::Json TableOf(const JobsResource& designs, const SweepRecord& sweep) {
 bool WantsCsv(const Call& call) {
   if (const auto format = QueryValue(call, "format")) return *format == "csv";
   const std::string accept = call.header("Accept").value_or("*/*");
-  return Wanted(accept, {kCsv, "text/*"}) >
+  return Wanted(accept, {kCsvType, "text/*"}) >
          Wanted(accept, {"application/json", "application/*", "*/*"});
 }
 
@@ -104,7 +104,7 @@ Reply TableReply(const JobsResource& designs, const SweepRecord& sweep, bool as_
   return reply;
 }
 
-Reply AcceptedReply(const JobsResource& designs, const std::string& id) {
+Reply SweepAccepted(const JobsResource& designs, const std::string& id) {
   const auto sweep = designs.jobs->FindSweep(id);
   auto reply = JsonReply(202, sweep ? Short(*sweep) : api::Json{{"id", id}, {"links", Links(id)}});
   reply.headers.emplace_back("Location", kPath + id);
@@ -116,7 +116,7 @@ std::optional<Reply> EndedReply(const JobsResource& designs, const std::string& 
                                 int seconds, bool as_csv) {
   const auto sweep = designs.jobs->FindSweep(id);
   if (sweep && sweep->ended_at.empty() && !is_over) return std::nullopt;
-  if (!sweep || sweep->ended_at.empty()) return AcceptedReply(designs, id);
+  if (!sweep || sweep->ended_at.empty()) return SweepAccepted(designs, id);
   Reply reply = TableReply(designs, *sweep, as_csv);
   reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
   reply.headers.emplace_back("Location", kPath + id);
@@ -127,7 +127,7 @@ std::optional<Reply> EndedReply(const JobsResource& designs, const std::string& 
 Reply AwaitSweep(const JobsResource& designs, const Call& call, const std::string& id) {
   const int seconds = WaitSeconds(call);
   auto turn = seconds > 0 ? EnterWaiting() : nullptr;
-  if (!turn) return AcceptedReply(designs, id);
+  if (!turn) return SweepAccepted(designs, id);
   Reply reply;
   reply.later = [designs, id, seconds, turn = std::move(turn), as_csv = WantsCsv(call),
                  jobs = designs.jobs->OfSweep(id), next = std::size_t{0},

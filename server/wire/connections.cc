@@ -22,7 +22,7 @@ constexpr std::size_t kReadBytes = 64 << 10;
 constexpr std::size_t kDrainBytesMax = 64 << 20;
 constexpr milliseconds kSweepPeriod{500};
 constexpr milliseconds kUnparkPause{5};  // between two looks at who waits
-constexpr milliseconds kStopPatience{1000};
+constexpr milliseconds kConnectionsStopPatience{1000};
 constexpr milliseconds kAskAgain{1000};  // of an answer whose next piece is waited for
 
 // Time to move so many bytes.
@@ -53,7 +53,7 @@ void Connections::Start(int places) {
 
 void Connections::Stop() {
   // Who waits for a job is told where it can be found.
-  for (const auto until = Clock::now() + kStopPatience;
+  for (const auto until = Clock::now() + kConnectionsStopPatience;
        !workers_.empty() && Clock::now() < until;) {
     Wake();
     std::this_thread::sleep_for(kUnparkPause);

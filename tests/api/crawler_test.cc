@@ -13,7 +13,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace crawler_test {
 
 TEST(Crawler, IsProvedOptimal) {
   const std::filesystem::path root = test::SourceDir();
@@ -29,5 +29,5 @@ TEST(Crawler, IsProvedOptimal) {
   EXPECT_EQ(answer["designs"][0]["performance"]["groups"].size(), 2u);
 }
 
-}  // namespace
+}  // namespace crawler_test
 }  // namespace plenum::api

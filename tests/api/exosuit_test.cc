@@ -17,7 +17,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace exosuit_test {
 
 using test::MassElement;
 using test::MassGroup;
@@ -110,5 +110,5 @@ TEST(Exosuit, FirstDesignRisesAndFallsAsTheMassesSay) {
   EXPECT_LE(reported.fall_time_s, 0.6);
 }
 
-}  // namespace
+}  // namespace exosuit_test
 }  // namespace plenum::api

@@ -14,7 +14,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace fuzz_test {
 
 using Random = std::mt19937_64;
 
@@ -189,5 +189,5 @@ TEST(Fuzz, MutatedSimulationsAndMapsAnswerOrSayWhy) {
   EXPECT_GT(answered, 100);
 }
 
-}  // namespace
+}  // namespace fuzz_test
 }  // namespace plenum::api

@@ -21,7 +21,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace quantities_test {
 
 using testing::HasSubstr;
 
@@ -272,5 +272,5 @@ TEST(Slips, OfAMeasurementStandAmongItsWarnings) {
   EXPECT_EQ(answer["notes"][0]["note"], "silicone");
 }
 
-}  // namespace
+}  // namespace quantities_test
 }  // namespace plenum::api

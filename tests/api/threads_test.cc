@@ -16,7 +16,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace threads_test {
 
 Json Example(const std::string& name) {
   const std::filesystem::path root = test::SourceDir();
@@ -53,5 +53,5 @@ TEST(Threads, GiveTheSameDocumentsHoweverManyThereAre) {
   }
 }
 
-}  // namespace
+}  // namespace threads_test
 }  // namespace plenum::api

@@ -16,7 +16,7 @@
 #include "tests/support/bench/bench_refit.h"
 
 namespace plenum::test {
-namespace {
+namespace bench_case_test {
 
 #ifdef PLENUM_SANITIZED
 constexpr int kClean = 6;
@@ -297,5 +297,5 @@ TEST(BenchDataset, TheModelAgreesOnEveryEffect) {
   }
 }
 
-}  // namespace
+}  // namespace bench_case_test
 }  // namespace plenum::test

@@ -9,7 +9,7 @@
 #include "tests/support/bench/bench_dataset.h"
 
 namespace plenum::test {
-namespace {
+namespace bench_diagnosis_test {
 
 using calibration::Diagnosis;
 using calibration::Verdict;
@@ -139,5 +139,5 @@ TEST(BenchDiagnosis, TwoEffectsOfFewerNumbersAreTriedBesideOne) {
 }
 #endif
 
-}  // namespace
+}  // namespace bench_diagnosis_test
 }  // namespace plenum::test

@@ -14,7 +14,7 @@
 #include "tests/support/bench/bench_json.h"
 
 namespace plenum::test {
-namespace {
+namespace bench_ties_test {
 
 constexpr std::uint64_t kSeries = 51;
 
@@ -98,5 +98,5 @@ TEST(BenchChannels, AreTheModelsWithNoise) {
   EXPECT_THROW(ChannelReadings(bench, bench.runs[0], 0, "weight_kg"), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace bench_ties_test
 }  // namespace plenum::test

@@ -13,7 +13,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace diagnose_test {
 
 using test::Change;
 using test::EffectRig;
@@ -293,5 +293,5 @@ TEST(Diagnose, StoppedAnywhereIsHonest) {
   }
 }
 
-}  // namespace
+}  // namespace diagnose_test
 }  // namespace plenum::calibration

@@ -9,7 +9,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace outgassing_test {
 
 constexpr double kAmbientPa = 101.3e3, kVolumeM3 = 150e-6, kNoisePa = 10.0;
 constexpr double kTimeConstantS = 70.0;
@@ -70,5 +70,5 @@ TEST(Outgassing, ThatDoesNotDecayIsALeak) {
   EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
 }
 
-}  // namespace
+}  // namespace outgassing_test
 }  // namespace plenum::calibration

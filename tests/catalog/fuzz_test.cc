@@ -13,7 +13,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace fuzz_test {
 
 #ifdef PLENUM_SANITIZED
 constexpr int kDraws = 4'000;
@@ -110,5 +110,5 @@ TEST(CsvFuzz, AnyTextIsAQuantityOrAnError) {
   EXPECT_GT(accepted, 100);
 }
 
-}  // namespace
+}  // namespace fuzz_test
 }  // namespace plenum::catalog

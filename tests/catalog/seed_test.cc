@@ -15,7 +15,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::catalog {
-namespace {
+namespace seed_test {
 
 const std::filesystem::path kSource = test::SourceDir();
 
@@ -120,5 +120,5 @@ TEST(Seed, TheBuiltCatalogueHoldsTheRowsOfTheFiles) {
   }
 }
 
-}  // namespace
+}  // namespace seed_test
 }  // namespace plenum::catalog

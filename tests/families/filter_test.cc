@@ -23,7 +23,7 @@
 #include "verify/tree/verify_tree.h"
 
 namespace plenum::test {
-namespace {
+namespace filter_test {
 
 using api::Json;
 using optimizer::Configuration;
@@ -326,5 +326,5 @@ TEST(Filter, RowsOfTheCatalogueBecomeParts) {
   }
 }
 
-}  // namespace
+}  // namespace filter_test
 }  // namespace plenum::test

@@ -12,6 +12,7 @@ import sys
 import tomllib
 
 from includes import check_includes
+from namespaces import check_namespaces
 from pages import check_pages
 from sizes import check_sizes
 from tree import read_sources
@@ -27,6 +28,7 @@ def violations(root, rules):
         *check_includes(sources, rules),
         *check_sizes(root, sources, tests, rules["limits"]),
         *check_pages(root, sources),
+        *check_namespaces(tests),
     ]
 
 

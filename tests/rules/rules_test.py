@@ -43,7 +43,7 @@ HOUSE = {
     "check/check.h": '#include "search/values/design.h"\n',
     "api/README.md": "- `answer`: the answer.\n",
     "api/answer.h": '#include "search/walk/walker.h"\n',
-    "tests/model/tube_test.cc": '#include "model/flow/tube.h"\n',
+    "tests/model/tube_test.cc": '#include "model/flow/tube.h"\nnamespace tube_test {\n}\n',
 }
 
 
@@ -135,10 +135,11 @@ class Rules(unittest.TestCase):
         )
 
     def test_folders_and_files(self):
-        names = [f"tests/model/t{i}_test.cc" for i in range(3)]
+        names = [f"tests/model/t{i}.cc" for i in range(3)]
         self.expect({name: "" for name in names}, ("folder", "tests/model"))
         self.expect({"model/air/gas.h": "\n" * 31}, ("file", "model/air/gas.h"))
-        self.expect({"tests/model/tube_test.cc": "\n" * 31}, ("file", "tests/model/tube_test.cc"))
+        self.expect({"tests/model/tube_test.cc": "\nnamespace tube_test {\n" + "\n" * 30},
+                    ("file", "tests/model/tube_test.cc"))
 
     def test_functions(self):
         body = "int Long() {\n  int a = 0;\n  a++;\n  a++;\n  return a;\n}\n"
@@ -159,6 +160,10 @@ class Rules(unittest.TestCase):
             {"model/flow/tube.cc": "void Tube::A() {}\n", "model/flow/bend.cc": "void Tube::B() {}\n"},
             ("one_cc", "model/flow/tube.h:Tube"),
         )
+
+    def test_namespaces_of_tests(self):
+        self.expect({"tests/model/tube_test.cc": "\nnamespace {\n}\n"},
+                    ("namespace", "tests/model/tube_test.cc"))
 
     def test_pages(self):
         self.expect({}, ("page", "model/air/README.md"), removed=["model/air/README.md"])

@@ -12,7 +12,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace bad_measurements_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -149,5 +149,5 @@ TEST(BadMeasurements, AbsurdReadingsGetNoConfidentName) {
   }
 }
 
-}  // namespace
+}  // namespace bad_measurements_test
 }  // namespace plenum::server

@@ -9,7 +9,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace cases_test {
 
 constexpr double kSeconds = 0.5;
 
@@ -55,5 +55,5 @@ TEST(Cases, GiveAnAnswerOrANamedErrorByCommandAndOverHttp) {
   }
 }
 
-}  // namespace
+}  // namespace cases_test
 }  // namespace plenum::server

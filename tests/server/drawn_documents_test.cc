@@ -22,7 +22,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace drawn_documents_test {
 
 using api::Json;
 
@@ -186,5 +186,5 @@ TEST(DrawnDocuments, MeasurementsEndInAnAnswerOrNamedErrors) {
       [](const Json& document) { return api::ErrorsOf(api::ParseMeasurement(document)).empty(); }));
 }
 
-}  // namespace
+}  // namespace drawn_documents_test
 }  // namespace plenum::server

@@ -13,7 +13,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace enemy_test {
 
 using api::Json;
 
@@ -249,5 +249,5 @@ TEST_F(Enemy, PathsAreChecked) {
   }
 }
 
-}  // namespace
+}  // namespace enemy_test
 }  // namespace plenum::server

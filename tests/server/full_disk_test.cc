@@ -15,7 +15,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace full_disk_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -159,5 +159,5 @@ TEST(FullDisk, ADiskWithoutSpaceIsAnsweredWith507AndLeavesThingsWhole) {
   ExpectWhole(catalog, acknowledged);
 }
 
-}  // namespace
+}  // namespace full_disk_test
 }  // namespace plenum::server

@@ -10,7 +10,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::fuzz {
-namespace {
+namespace fuzz_corpus_test {
 
 void Replay(const std::string& name, void (*target)(std::string_view)) {
   const auto folder = test::SourceDir() / "tests/fuzz/corpus" / name;
@@ -35,5 +35,5 @@ TEST(Fuzz, Recording) { Replay("recording", Recording); }
 TEST(Fuzz, Import) { Replay("import", Import); }
 TEST(Fuzz, Verify) { Replay("verify", Verify); }
 
-}  // namespace
+}  // namespace fuzz_corpus_test
 }  // namespace plenum::fuzz

@@ -18,7 +18,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::fuzz {
-namespace {
+namespace fuzz_seeds_test {
 
 using api::Json;
 
@@ -81,5 +81,5 @@ TEST(FuzzSeeds, AnswersAreAcceptedAsFarAsTheFuzzersLimitGoes) {
   });
 }
 
-}  // namespace
+}  // namespace fuzz_seeds_test
 }  // namespace plenum::fuzz

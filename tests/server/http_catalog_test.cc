@@ -6,7 +6,7 @@
 #include "tests/server/http_client.h"
 
 namespace plenum::server {
-namespace {
+namespace http_catalog_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -243,5 +243,5 @@ TEST_F(Http, APostedPartChangesTheRankingUntilItIsDeleted) {
   EXPECT_EQ(rank_one(), before);
 }
 
-}  // namespace
+}  // namespace http_catalog_test
 }  // namespace plenum::server

@@ -6,7 +6,7 @@
 #include "tests/server/http_client.h"
 
 namespace plenum::server {
-namespace {
+namespace http_jobs_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -166,5 +166,5 @@ TEST_F(Http, ListsSavedModelsAndTheirVersions) {
   ExpectProblem(client_->Delete("/v1/models/bench"), 405);
 }
 
-}  // namespace
+}  // namespace http_jobs_test
 }  // namespace plenum::server

@@ -10,7 +10,7 @@
 #include "tests/server/http_client.h"
 
 namespace plenum::server {
-namespace {
+namespace http_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -246,5 +246,5 @@ TEST_F(Http, LimitsAreThoseOfRefusals) {
   EXPECT_EQ(limits["body_bytes_max"], kBodyBytesMax);
 }
 
-}  // namespace
+}  // namespace http_test
 }  // namespace plenum::server

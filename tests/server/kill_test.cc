@@ -22,7 +22,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace kill_test {
 
 constexpr int kClients = 6;
 constexpr int kIdsPerClient = 24;
@@ -264,5 +264,5 @@ TEST(Kill, LosesNothingAcknowledgedAndLeavesNothingHalfDone) {
       kills, in_the_middle, acknowledged.load(), unseen, jobs.acknowledged());
 }
 
-}  // namespace
+}  // namespace kill_test
 }  // namespace plenum::server

@@ -14,7 +14,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace restart_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -235,5 +235,5 @@ TEST(Serve, RefusesASecondServiceOfTheSameCatalogue) {
   EXPECT_THAT(second.err, HasSubstr("catalog.db is held by another service"));
 }
 
-}  // namespace
+}  // namespace restart_test
 }  // namespace plenum::server

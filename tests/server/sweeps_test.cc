@@ -12,7 +12,7 @@
 #include "tests/server/http_client.h"
 
 namespace plenum::server {
-namespace {
+namespace sweeps_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -202,5 +202,5 @@ TEST(SweepRestart, AKilledServiceLosesNoJobOfASweep) {
   }
 }
 
-}  // namespace
+}  // namespace sweeps_test
 }  // namespace plenum::server

@@ -14,7 +14,7 @@
 #include "tests/support/postgres/postgres_server.h"
 
 namespace plenum::server {
-namespace {
+namespace worker_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -178,5 +178,5 @@ TEST_P(OnServer, AWorkerOfAFileIsRefused) {
 INSTANTIATE_TEST_SUITE_P(Each, OnServer, testing::Values("Postgresql"),
                          [](const auto& one) { return std::string(one.param); });
 
-}  // namespace
+}  // namespace worker_test
 }  // namespace plenum::server

@@ -14,7 +14,7 @@
 #include "verify/tree/verify_box.h"
 
 namespace plenum::test {
-namespace {
+namespace verify_test {
 
 using optimizer::Answer;
 using optimizer::BoxKind;
@@ -332,5 +332,5 @@ TEST(VerifyTest, BruteForceStopsWhenItIsToldTo) {
   EXPECT_EQ(asked > 0, shown > 0);
 }
 
-}  // namespace
+}  // namespace verify_test
 }  // namespace plenum::test

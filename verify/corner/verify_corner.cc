@@ -192,7 +192,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
     if (line.all_hold) inflating_j += strokes * line.coil_w * inflate_s;
   }
   const double beyond_j = problem_.actuations * inflating_j;
-  double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;
+  double sum = chosen + problem_.objective.energy_wh * beyond_j / optimizer::kJoulePerWattHour;
   if (plan_.configuration == Configuration::kMains) return sum;
 
   const Inlets inlets = InletsOf(sources);
@@ -321,7 +321,8 @@ double Corners::LeastRefilled(const Ranges& ranges, const Inlets& inlets, double
   const double pump_j =
       lacking_m3 > 0.0 ? lacking_m3 * pumps.energy_j_per_m3[fillers_->CellOf(kept_pa)] : 0.0;
   return objective + problem_.objective.mass_kg * held_m3 * model::kReferenceDensityKgPerM3 +
-         problem_.objective.energy_wh * pump_j / 3600.0 + LeastBattery(ranges, energy_j + pump_j);
+         problem_.objective.energy_wh * pump_j / optimizer::kJoulePerWattHour +
+         LeastBattery(ranges, energy_j + pump_j);
 }
 
 double Corners::LeastBattery(const Ranges& ranges, double energy_j) {

@@ -168,7 +168,7 @@ double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine
     return kUnlimited;
   beyond_j *= problem_.actuations;
   return chosen + LeastBattery(ranges, beyond_j + problem_.actuations * coils_j, node_pa, coil_w) +
-         problem_.objective.energy_wh * beyond_j / 3600.0;
+         problem_.objective.energy_wh * beyond_j / optimizer::kJoulePerWattHour;
 }
 
 }  // namespace plenum::verify

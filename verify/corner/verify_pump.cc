@@ -150,7 +150,7 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
   const double coils_j = problem_.actuations * c.coil_j;
   const double made = c.made ? MadeObjective(v.low_m3, stop_pa) : 0.0;
   return made + c.packs.Least(beyond_j + coils_j) +
-         problem_.objective.energy_wh * beyond_j / 3600.0;
+         problem_.objective.energy_wh * beyond_j / optimizer::kJoulePerWattHour;
 }
 
 double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {

@@ -189,7 +189,8 @@ model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
 double ObjectiveOf(const Problem& problem, const Totals& totals) {
   const Objective& weight = problem.objective;
   return weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
-         weight.cost_eur * totals.cost_known_eur + weight.energy_wh * totals.energy_j / 3600.0;
+         weight.cost_eur * totals.cost_known_eur +
+         weight.energy_wh * totals.energy_j / optimizer::kJoulePerWattHour;
 }
 
 Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& settings) {

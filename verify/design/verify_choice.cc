@@ -98,7 +98,8 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const Pr
   }
   const Objective& weight = problem.objective;
   sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +
-                  weight.cost_eur * sum.cost_eur + weight.energy_wh * energy_j / 3600.0;
+                  weight.cost_eur * sum.cost_eur +
+                  weight.energy_wh * energy_j / optimizer::kJoulePerWattHour;
   return sum;
 }
 

@@ -18,7 +18,7 @@ double AmountOf(Amount amount, const Totals& totals) {
     case Amount::kCost:
       return totals.cost_eur.value_or(kUnlimited);
     case Amount::kEnergy:
-      return totals.energy_j / 3600.0;
+      return totals.energy_j / optimizer::kJoulePerWattHour;
   }
   return kUnlimited;
 }

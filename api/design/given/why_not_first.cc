@@ -14,9 +14,9 @@ namespace {
 using optimizer::Design;
 using optimizer::LeafStatus;
 
-constexpr double kMet = -1e-9;         // relative margin from which on a requirement is met
-constexpr double kNothing = 1e-9;      // of the objective
-constexpr std::size_t kPartsTold = 3;  // in words
+constexpr double kMet = -1e-9;          // relative margin from which on a requirement is met
+constexpr double kNoDifference = 1e-9;  // of the objective
+constexpr std::size_t kPartsTold = 3;   // in words
 
 double ObjectiveOf(const optimizer::Choice* row, const optimizer::Objective& of) {
   if (row == nullptr) return 0.0;
@@ -32,7 +32,7 @@ std::vector<optimizer::Margin> MissedBy(const std::optional<Design>& design) {
   return missed;
 }
 
-std::string Percent(double share) {
+std::string PercentOf(double share) {
   return Decimal(Rounded(std::round(1e3 * share) / 10.0)) + " %";
 }
 
@@ -176,12 +176,13 @@ class WhyNot {
       row["first"] = RenderRow(pair.other);
       row["difference"] = Number(share);
       parts.push_back(std::move(row));
-      if (i >= kPartsTold || std::abs(share) <= kNothing * std::abs(first_.objective)) continue;
+      if (i >= kPartsTold || std::abs(share) <= kNoDifference * std::abs(first_.objective))
+        continue;
       told += (told.empty() ? "" : "; ") + Instead(pair) + " " + Amount(std::abs(share)) +
               (share > 0.0 ? " more" : " less");
     }
     const double energy = EnergyOf(mine_) - EnergyOf(first_);
-    if (std::abs(energy) > kNothing * std::abs(first_.objective))
+    if (std::abs(energy) > kNoDifference * std::abs(first_.objective))
       told += (told.empty() ? "" : "; ") + std::string("energy ") + Amount(std::abs(energy)) +
               (energy > 0.0 ? " more" : " less");
     if (!told.empty()) words_.push_back("Of that: " + told + ".");
@@ -198,14 +199,14 @@ class WhyNot {
 
   void TellDifference() {
     const double difference = mine_.objective - first_.objective;
-    if (std::abs(difference) <= kNothing * std::abs(first_.objective)) {
+    if (std::abs(difference) <= kNoDifference * std::abs(first_.objective)) {
       words_.push_back("It comes to the same, " + Amount(mine_.objective) +
                        "; what ties goes by mass, cost and ids of parts.");
       return;
     }
     std::string share;
     if (first_.objective > 0.0)
-      share = " (" + Percent(std::abs(difference) / first_.objective) + ")";
+      share = " (" + PercentOf(std::abs(difference) / first_.objective) + ")";
     const std::string by = Amount(std::abs(difference)) + share;
     words_.push_back("It comes to " + Amount(mine_.objective) + ", " + by +
                      (difference > 0.0 ? " more than the first." : " less than the first."));
@@ -244,7 +245,8 @@ class WhyNot {
         best = &exchange;
     }
     const bool wanted = !best_.design;
-    if (best && (wanted || best->made.design->objective < mine_.objective * (1.0 - kNothing))) {
+    if (best &&
+        (wanted || best->made.design->objective < mine_.objective * (1.0 - kNoDifference))) {
       std::string parts;
       for (const RowPair& pair : best->rows)
         if (pair.other) parts += (parts.empty() ? "" : " and ") + Part(*pair.other);

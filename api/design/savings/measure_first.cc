@@ -17,7 +17,7 @@ using Tests = std::vector<const PartTest*>;
 
 constexpr std::size_t kDesignsOnPaper = 3;  // whose parts are looked at
 constexpr std::size_t kTold = 3;
-constexpr double kNothing = 1e-6;    // share of the objective that is no saving
+constexpr double kNoSaving = 1e-6;   // share of the objective that is no saving
 constexpr double kOfTheRest = 0.25;  // of the time: a search that does not end leaves some
 
 struct Saving {
@@ -104,7 +104,7 @@ class Retrial {
     return options_.time_limit_s - std::chrono::duration<double>(Clock::now() - start_).count();
   }
 
-  bool Saves(const Saving& saving) const { return saving.most > kNothing * objective_; }
+  bool Saves(const Saving& saving) const { return saving.most > kNoSaving * objective_; }
 
   Saving With(Tests tests) const {
     optimizer::Problem problem = problem_;
@@ -122,7 +122,7 @@ class Retrial {
     const bool proved = answer.status == optimizer::Status::kOptimal ||
                         answer.status == optimizer::Status::kInfeasible;
     if (proved) saving.most = saving.least;
-    if (saving.least <= kNothing * objective_) saving.least = 0.0;
+    if (saving.least <= kNoSaving * objective_) saving.least = 0.0;
     return saving;
   }
 

@@ -9,13 +9,13 @@ constexpr double kFilled = 0.2;  // of the largest gauge pressure
 constexpr double kFallen = 0.1, kKept = 0.8;
 constexpr double kSoon = 10.0;  // times the time on
 
-struct Count {
+struct OffReadings {
   int falls = 0, stays = 0, unclear = 0;
 };
 
 // One stretch off, from `begin` to `end`, after the valve was on from `on`.
 void LookAtStretch(const RecordedRun& run, const std::vector<double>& kpa, std::size_t on,
-                   std::size_t begin, std::size_t end, double high_kpa, Count& count) {
+                   std::size_t begin, std::size_t end, double high_kpa, OffReadings& count) {
   double start_kpa = 0.0, last_kpa = 0.0;
   for (std::size_t i = on; i <= begin; ++i)
     if (std::isfinite(kpa[i])) start_kpa = kpa[i];
@@ -37,7 +37,7 @@ void LookAtStretch(const RecordedRun& run, const std::vector<double>& kpa, std::
 }
 
 void LookAtRun(const RecordedRun& run, const std::vector<Position>& positions, double high_kpa,
-               Count& count) {
+               OffReadings& count) {
   const std::vector<double>& kpa = run.readings.at(std::string(kPressureField));
   std::optional<std::size_t> on;
   for (std::size_t i = 0; i < positions.size();) {
@@ -57,7 +57,7 @@ OffState OffStateOf(const Recording& recording,
   for (const RecordedRun& run : recording.runs)
     for (const double kpa : run.readings.at(std::string(kPressureField)))
       if (std::isfinite(kpa)) high_kpa = std::max(high_kpa, kpa);
-  Count count;
+  OffReadings count;
   for (std::size_t r = 0; r < positions.size() && high_kpa > 0.0; ++r)
     LookAtRun(recording.runs[r], positions[r], high_kpa, count);
   if (count.falls > 0 && count.stays == 0 && count.unclear == 0)

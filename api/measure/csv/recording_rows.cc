@@ -21,7 +21,6 @@ using catalog::Trimmed;
 constexpr std::size_t kErrorsMax = 20;
 constexpr std::size_t kSamples = 3, kSampleBytes = 60;
 constexpr std::size_t kValveWordsMax = 1000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool IsMissing(std::string_view cell) {
   for (const std::string_view one :

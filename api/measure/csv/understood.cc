@@ -8,7 +8,7 @@
 namespace plenum::api {
 namespace {
 
-Json OrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+Json KnownOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 Json LineOrNull(int line) { return line == 0 ? Json(nullptr) : Json(line); }
 
 Json ColumnOf(const Recording& recording, std::size_t i) {
@@ -20,12 +20,13 @@ Json ColumnOf(const Recording& recording, std::size_t i) {
   return {
       {"key", column.key},
       {"heading", column.heading},
-      {"field", OrNull(field)},
-      {"unit", OrNull(unit.empty() && has_numbers ? std::string(catalog::UnitOf(field)) : unit)},
+      {"field", KnownOrNull(field)},
+      {"unit",
+       KnownOrNull(unit.empty() && has_numbers ? std::string(catalog::UnitOf(field)) : unit)},
       {"factor", has_numbers ? Json(recording.scales[i].numerator / recording.scales[i].denominator)
                              : Json(nullptr)},
       {"offset", has_numbers ? Json(recording.scales[i].offset) : Json(nullptr)},
-      {"meaning", OrNull(i < recording.meanings.size() ? recording.meanings[i] : "")},
+      {"meaning", KnownOrNull(i < recording.meanings.size() ? recording.meanings[i] : "")},
       {"first", column.samples}};
 }
 
@@ -58,8 +59,8 @@ Json UnderstoodOf(const Recording& recording) {
                                     TakeGaugeMark(target.unit).gauge == Gauge::kAbsolute);
   }
   for (const RecordedRun& run : recording.runs) runs.push_back(RunOf(run));
-  return {{"encoding", OrNull(table.encoding)},
-          {"delimiter", OrNull(table.delimiter)},
+  return {{"encoding", KnownOrNull(table.encoding)},
+          {"delimiter", KnownOrNull(table.delimiter)},
           {"decimal", has_decimals ? Json(has_comma ? "comma" : "point") : Json(nullptr)},
           {"heading_line", LineOrNull(recording.has_headings ? table.header_row : 0)},
           {"units_line", LineOrNull(table.units_row)},

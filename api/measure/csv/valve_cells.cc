@@ -16,51 +16,51 @@ namespace {
 
 using catalog::ColumnRead;
 
-constexpr std::size_t kErrorsMax = 20;
+constexpr std::size_t kValveErrorsMax = 20;
 constexpr double kOfLevel = 0.2;  // of the span between two levels
 
-struct Word {
+struct PositionWord {
   std::string_view word;
   Position means;
 };
-constexpr Word kWords[] = {{"inflate", Position::kInflate},
-                           {"inflating", Position::kInflate},
-                           {"fill", Position::kInflate},
-                           {"filling", Position::kInflate},
-                           {"pressurize", Position::kInflate},
-                           {"pressurise", Position::kInflate},
-                           {"fuellen", Position::kInflate},
-                           {"befuellen", Position::kInflate},
-                           {"belueften", Position::kInflate},
-                           {"aufblasen", Position::kInflate},
-                           {"deflate", Position::kDeflate},
-                           {"deflating", Position::kDeflate},
-                           {"vent", Position::kDeflate},
-                           {"venting", Position::kDeflate},
-                           {"exhaust", Position::kDeflate},
-                           {"release", Position::kDeflate},
-                           {"entlueften", Position::kDeflate},
-                           {"ablassen", Position::kDeflate},
-                           {"hold", Position::kHold},
-                           {"holding", Position::kHold},
-                           {"halten", Position::kHold},
-                           {"open", Position::kOn},
-                           {"opened", Position::kOn},
-                           {"on", Position::kOn},
-                           {"true", Position::kOn},
-                           {"high", Position::kOn},
-                           {"offen", Position::kOn},
-                           {"auf", Position::kOn},
-                           {"ein", Position::kOn},
-                           {"an", Position::kOn},
-                           {"closed", Position::kOff},
-                           {"close", Position::kOff},
-                           {"off", Position::kOff},
-                           {"false", Position::kOff},
-                           {"low", Position::kOff},
-                           {"zu", Position::kOff},
-                           {"geschlossen", Position::kOff},
-                           {"aus", Position::kOff}};
+constexpr PositionWord kPositionWords[] = {{"inflate", Position::kInflate},
+                                           {"inflating", Position::kInflate},
+                                           {"fill", Position::kInflate},
+                                           {"filling", Position::kInflate},
+                                           {"pressurize", Position::kInflate},
+                                           {"pressurise", Position::kInflate},
+                                           {"fuellen", Position::kInflate},
+                                           {"befuellen", Position::kInflate},
+                                           {"belueften", Position::kInflate},
+                                           {"aufblasen", Position::kInflate},
+                                           {"deflate", Position::kDeflate},
+                                           {"deflating", Position::kDeflate},
+                                           {"vent", Position::kDeflate},
+                                           {"venting", Position::kDeflate},
+                                           {"exhaust", Position::kDeflate},
+                                           {"release", Position::kDeflate},
+                                           {"entlueften", Position::kDeflate},
+                                           {"ablassen", Position::kDeflate},
+                                           {"hold", Position::kHold},
+                                           {"holding", Position::kHold},
+                                           {"halten", Position::kHold},
+                                           {"open", Position::kOn},
+                                           {"opened", Position::kOn},
+                                           {"on", Position::kOn},
+                                           {"true", Position::kOn},
+                                           {"high", Position::kOn},
+                                           {"offen", Position::kOn},
+                                           {"auf", Position::kOn},
+                                           {"ein", Position::kOn},
+                                           {"an", Position::kOn},
+                                           {"closed", Position::kOff},
+                                           {"close", Position::kOff},
+                                           {"off", Position::kOff},
+                                           {"false", Position::kOff},
+                                           {"low", Position::kOff},
+                                           {"zu", Position::kOff},
+                                           {"geschlossen", Position::kOff},
+                                           {"aus", Position::kOff}};
 
 // "Open" and "open", "1" and "1.0" are one cell.
 std::string PlainWord(std::string_view cell) {
@@ -70,14 +70,14 @@ std::string PlainWord(std::string_view cell) {
 
 std::optional<Position> PositionOf(std::string_view cell) {
   const std::string plain = PlainWord(cell);
-  const auto* known = std::find_if(std::begin(kWords), std::end(kWords),
-                                   [&](const Word& one) { return one.word == plain; });
-  return known == std::end(kWords) ? std::nullopt : std::optional(known->means);
+  const auto* known = std::find_if(std::begin(kPositionWords), std::end(kPositionWords),
+                                   [&](const PositionWord& one) { return one.word == plain; });
+  return known == std::end(kPositionWords) ? std::nullopt : std::optional(known->means);
 }
 
 std::vector<std::string> AllWords() {
   std::vector<std::string> words;
-  for (const Word& one : kWords) words.emplace_back(one.word);
+  for (const PositionWord& one : kPositionWords) words.emplace_back(one.word);
   return words;
 }
 
@@ -164,7 +164,7 @@ class ValveColumn {
   }
 
   void Fail(const RecordedRun& run, std::size_t row, const ValveCell& cell) {
-    if (recording_.table.errors.size() >= kErrorsMax) return;
+    if (recording_.table.errors.size() >= kValveErrorsMax) return;
     const std::string shown = cell.word >= 0
                                   ? recording_.valve_words[static_cast<std::size_t>(cell.word)]
                                   : catalog::FormatNumber(cell.number);
@@ -254,7 +254,7 @@ void FindStatesOfTwo(ValveColumn& fill, ValveColumn& vent, Recording& recording)
   for (RecordedRun& run : recording.runs)
     for (std::size_t row = 0; row < run.t_s.size(); ++row) {
       const bool fills = is_on(fill, run, row), vents = is_on(vent, run, row);
-      if (fills && vents && recording.table.errors.size() < kErrorsMax)
+      if (fills && vents && recording.table.errors.size() < kValveErrorsMax)
         recording.table.errors.push_back(
             {run.lines[row], vent.column().key,
              "both valves are on: a run inflates, holds or deflates, and the model has no leak "

@@ -15,10 +15,8 @@
 namespace plenum::api {
 namespace {
 
-constexpr double kTimeMaxS = 1e6;
 constexpr std::size_t kUncertainMax = 100;
 constexpr double kUncertaintyMaxS = 1e5;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A number of the range or "unknown", for which it stands `unknown`.
 double ReadKnown(Reader& command, const char* name, Range range, double unknown) {

@@ -20,8 +20,8 @@ constexpr double kDm3PerSBar = 1e-8;  // m³/(s·Pa)
 std::string Seconds(double s) {
   return s < 1.0 ? Significant(1e3 * s) + " ms" : Significant(s) + " s";
 }
-std::string Kpa(double pa) { return Significant(pa / 1e3) + " kPa"; }
-std::string Percent(double share) { return Significant(100.0 * share, 2) + " %"; }
+std::string KpaText(double pa) { return Significant(pa / 1e3) + " kPa"; }
+std::string PercentText(double share) { return Significant(100.0 * share, 2) + " %"; }
 std::string Conductance(double m3_per_s_pa) {
   return Significant(m3_per_s_pa / kDm3PerSBar) + " dm³/(s·bar)";
 }
@@ -58,14 +58,14 @@ std::string Leak(const std::string& law, const Values& values, const Scale& scal
   if (!(fill > 0.0)) return text;
   const double per_s = flow / fill;
   return text + ", " +
-         (per_s > 1.0 / 60.0 ? Percent(per_s) + " of a fill each second"
-                             : Percent(60.0 * per_s) + " of a fill each minute");
+         (per_s > 1.0 / 60.0 ? PercentText(per_s) + " of a fill each second"
+                             : PercentText(60.0 * per_s) + " of a fill each minute");
 }
 
 std::string DeadVolume(const Values& values, const Scale& scale) {
   const double rest_m3 = model::Volume(scale.chamber, scale.ambient.pressure_pa);
   return "it has " + Significant(1e6 * values[0]) + " mL that were not declared, " +
-         Percent(values[0] / rest_m3) + " of the volume at rest";
+         PercentText(values[0] / rest_m3) + " of the volume at rest";
 }
 
 // x + a·x·(x − 1) + s·sin(2πx)/(2π)
@@ -76,13 +76,13 @@ std::string Compliance(const Values& values, const Scale& scale) {
     constexpr double kTurn = 6.283185307179586;
     return x + values[0] * x * (x - 1.0) + values[1] * std::sin(kTurn * x) / kTurn;
   };
-  return "its volume does not grow evenly: " + Percent(at(0.25)) +
-         " of the expansion at a quarter of the operating pressure, " + Percent(at(0.5)) +
-         " at half, " + Percent(at(0.75)) + " at three quarters";
+  return "its volume does not grow evenly: " + PercentText(at(0.25)) +
+         " of the expansion at a quarter of the operating pressure, " + PercentText(at(0.5)) +
+         " at half, " + PercentText(at(0.75)) + " at three quarters";
 }
 
 std::string More(double factor, const char* more, const char* less) {
-  return Percent(std::abs(factor - 1.0)) + (factor >= 1.0 ? more : less);
+  return PercentText(std::abs(factor - 1.0)) + (factor >= 1.0 ? more : less);
 }
 
 using Sentence = std::function<std::string(const Values&, const Scale&)>;
@@ -95,7 +95,7 @@ const Sentences& OfTheChamber() {
       {"nonlinear_compliance", Compliance},
       {"creep",
        [](const Values& v, const Scale&) {
-         return "its wall creeps: it expands by " + Percent(v[0]) +
+         return "its wall creeps: it expands by " + PercentText(v[0]) +
                 " more than at once, with a time constant of " + Seconds(v[1]);
        }},
       {"inertia",
@@ -120,7 +120,8 @@ const Sentences& OfTheChamber() {
                 " mL/min at the start, less and less with a time constant of " + Seconds(v[1]);
        }},
       {"hysteresis", [](const Values& v, const Scale&) {
-         return "its volume on the way up and on the way down lies " + Kpa(2.0 * v[0]) + " apart";
+         return "its volume on the way up and on the way down lies " + KpaText(2.0 * v[0]) +
+                " apart";
        }}};
   return sentences;
 }
@@ -149,7 +150,7 @@ const Sentences& OfTheLine() {
        }},
       {"cracking_pressure",
        [](const Values& v, const Scale&) {
-         return "its line passes nothing below a difference of " + Kpa(v[0]);
+         return "its line passes nothing below a difference of " + KpaText(v[0]);
        }},
       {"line_dynamics", [](const Values& v, const Scale&) {
          return "the gas in its tube moves as in " + Significant(v[0]) + " m of " +
@@ -166,7 +167,7 @@ const Sentences& OfTheSensor() {
        }},
       {"sensor_offset",
        [](const Values& v, const Scale&) {
-         return "the sensor reads " + Kpa(std::abs(v[0])) +
+         return "the sensor reads " + KpaText(std::abs(v[0])) +
                 (v[0] >= 0.0 ? " too high" : " too low");
        }},
       {"sensor_gain", [](const Values& v, const Scale&) {

@@ -9,7 +9,6 @@ namespace plenum::optimizer {
 
 // Of the objective per joule.
 inline double EnergyWeight(const Problem& problem) {
-  constexpr double kJoulePerWattHour = 3600.0;
   return problem.objective.energy_wh / kJoulePerWattHour;
 }
 

@@ -8,7 +8,7 @@
 namespace plenum::server {
 namespace {
 
-std::string Bare(std::string_view text) {
+std::string WithoutBlanks(std::string_view text) {
   std::string bare(text);
   std::erase_if(bare, [](char c) { return c == ' ' || c == '\t'; });
   for (char& c : bare)
@@ -21,7 +21,7 @@ std::string Bare(std::string_view text) {
 double Wanted(std::string_view list, const std::vector<std::string_view>& names) {
   std::map<std::string, double, std::less<>> given;
   while (!list.empty()) {
-    const std::string entry = Bare(list.substr(0, list.find(',')));
+    const std::string entry = WithoutBlanks(list.substr(0, list.find(',')));
     list.remove_prefix(std::min(list.find(','), list.size() - 1) + 1);
     const auto weight = entry.find(";q=");
     given[entry.substr(0, entry.find(';'))] =

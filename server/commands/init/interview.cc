@@ -101,7 +101,7 @@ Json ReadAnswer(const std::string& line, const std::string& unit, const Json& be
   return line;
 }
 
-std::string Shown(const Json& value) {
+std::string ShownBefore(const Json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
@@ -142,7 +142,7 @@ class Asking {
     const Json before = document_.at(place);
     const std::string shown = unit.empty() ? text : text + " in " + unit;
     for (;;) {
-      interview_.say(shown + " [" + Shown(before) + "]: ");
+      interview_.say(shown + " [" + ShownBefore(before) + "]: ");
       const std::string line = NextLine();
       if (line.empty()) return;
       Json changed = document_;

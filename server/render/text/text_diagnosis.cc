@@ -16,7 +16,7 @@ namespace {
 using api::Json;
 using Align = Table::Align;
 
-std::string Percent(const Json& share) {
+std::string WholePercent(const Json& share) {
   return share.is_number() ? fmt::format("{:.0f} %", 100.0 * share.get<double>()) : "–";
 }
 
@@ -194,12 +194,12 @@ std::string DiscrepancyText(const Json& answer) {
   const Json& discrepancy = answer.at("discrepancy");
   if (discrepancy.is_null()) return "";
   std::string text = fmt::format("What is left ({} of the residual's variance above the noise)",
-                                 Percent(answer.at("unexplained_fraction")));
+                                 WholePercent(answer.at("unexplained_fraction")));
   text += fmt::format(" lies in the equation of the {}\n",
                       discrepancy.at("equation").get<std::string>());
   for (const Json& place : discrepancy.at("places"))
     text += fmt::format("  {}: {}, {} of it\n", place.at("axis").get<std::string>(),
-                        place.at("where").get<std::string>(), Percent(place.at("share")));
+                        place.at("where").get<std::string>(), WholePercent(place.at("share")));
   text += fmt::format(
       "  a learned term takes the error from {} to {} kPa, held out from {} to {}\n\n",
       Short(discrepancy.at("rms_before_kpa")), Short(discrepancy.at("rms_after_kpa")),

@@ -36,7 +36,7 @@ using Align = Table::Align;
 
 std::string LastStep(const std::string& pointer) { return pointer.substr(pointer.rfind('/') + 1); }
 
-std::string Shown(const Json& value) {
+std::string ShownInTable(const Json& value) {
   if (value.is_string()) return Cut(value.get<std::string>(), kNameMax);
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   return Short(value);
@@ -45,11 +45,11 @@ std::string Shown(const Json& value) {
 // Of its answer, else of its job.
 std::string StatusOf(const Json& row) {
   const Json& outcome = row.at("outcome");
-  return Shown(outcome.is_null() ? row.at("status") : outcome);
+  return ShownInTable(outcome.is_null() ? row.at("status") : outcome);
 }
 
 // Its pumps or bottles, else its configuration.
-std::string SourceOf(const Json& row) {
+std::string SourceOfPart(const Json& row) {
   std::string source;
   if (row.at("parts").is_array())
     for (const Json& part : row.at("parts")) {
@@ -59,7 +59,7 @@ std::string SourceOf(const Json& row) {
           source += (source.empty() ? "" : " + ") + words.substr(0, at) +
                     words.substr(at + family.size());
     }
-  return source.empty() ? Shown(row.at("configuration")) : source;
+  return source.empty() ? ShownInTable(row.at("configuration")) : source;
 }
 
 }  // namespace
@@ -112,13 +112,13 @@ std::string SweepText(const Json& sweep) {
   std::string why;
   for (const Json& row : sweep.at("rows")) {
     std::vector<std::string> cells = {Cut(row.at("name").get<std::string>(), kNameMax)};
-    for (const Json& value : row.at("values")) cells.push_back(Shown(value));
+    for (const Json& value : row.at("values")) cells.push_back(ShownInTable(value));
     for (const char* number : {"mass_kg", "cost_eur", "objective"})
       cells.push_back(Short(row.at(number)));
     cells.push_back(StatusOf(row));
     cells.push_back(Percent(row.at("gap")));
     cells.push_back(Short(row.at("seconds")));
-    cells.push_back(SourceOf(row));
+    cells.push_back(SourceOfPart(row));
     table.Add(std::move(cells));
     for (const char* reason : {"conflict", "detail"})
       if (row.at(reason).is_string())

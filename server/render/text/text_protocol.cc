@@ -13,7 +13,7 @@ namespace {
 using api::Json;
 using Align = Table::Align;
 
-std::string Percent(const Json& share) {
+std::string TwoDigitPercent(const Json& share) {
   return share.is_number() ? fmt::format("{:.2g} %", 100.0 * share.get<double>()) : "–";
 }
 
@@ -44,8 +44,8 @@ std::string PrecisionTable(const Json& rows) {
                {"how", Align::kLeft}},
               2);
   for (const Json& row : rows)
-    table.Add({Spoken(row.at("field")).name + At(row), Percent(row.at("uncertainty")),
-               Percent(row.at("from_noise")), Percent(row.at("from_rig")),
+    table.Add({Spoken(row.at("field")).name + At(row), TwoDigitPercent(row.at("uncertainty")),
+               TwoDigitPercent(row.at("from_noise")), TwoDigitPercent(row.at("from_rig")),
                row.at("how").get<std::string>() + (row.at("told") == true ? "" : "; not told")});
   return table.Text();
 }
@@ -80,7 +80,7 @@ std::string SavedText(const Json& answer) {
     if (number.at("combined") == true)
       text += fmt::format("  {} combines with the measurement before: {}, {}\n",
                           number.at("field").get<std::string>(), Short(number.at("value")),
-                          Percent(number.at("uncertainty")));
+                          TwoDigitPercent(number.at("uncertainty")));
   return text + "\n";
 }
 
@@ -114,8 +114,9 @@ std::string MeasuredText(const Json& answer) {
     const Json& interval = row.at("interval_95");
     table.Add({name + At(row) + " of " + row.at("part").get<std::string>(),
                Short(row.at("declared")), Short(row.at("fitted")),
-               Short(interval[0]) + " to " + Short(interval[1]), Percent(row.at("uncertainty")),
-               spoken, row.at("refused").is_string() ? row.at("refused").get<std::string>() : ""});
+               Short(interval[0]) + " to " + Short(interval[1]),
+               TwoDigitPercent(row.at("uncertainty")), spoken,
+               row.at("refused").is_string() ? row.at("refused").get<std::string>() : ""});
   }
   std::string text = table.Text();
   for (const Json& reason : answer.value("measured_refused", Json::array()))

@@ -10,7 +10,7 @@ namespace {
 using api::Json;
 
 // A part of an answer that may be missing.
-const Json& ListOf(const Json& answer, const char* name) {
+const Json& RemarksNamed(const Json& answer, const char* name) {
   static const Json kNone = Json::array();
   const auto found = answer.find(name);
   return found == answer.end() ? kNone : *found;
@@ -71,13 +71,13 @@ std::string TableText(const Json& understood) {
 
 std::string RemarksText(const Json& answer) {
   std::string text;
-  for (const Json& warning : ListOf(answer, "warnings"))
+  for (const Json& warning : RemarksNamed(answer, "warnings"))
     if (warning.is_object())
       text += fmt::format("Warning: {} {}\n", PlaceOf(warning), TextOf(warning.at("detail")));
-  const Json& understood = ListOf(answer, "understood");
+  const Json& understood = RemarksNamed(answer, "understood");
   if (!understood.empty()) text += "Understood:\n";
   for (const Json& row : understood) text += UnderstoodText(row);
-  for (const Json& note : ListOf(answer, "notes"))
+  for (const Json& note : RemarksNamed(answer, "notes"))
     text += fmt::format("Note {}: {}\n", PlaceOf(note), TextOf(note.at("note")));
   return text.empty() ? "" : "\n" + text;
 }

@@ -7,7 +7,7 @@
 namespace plenum::server {
 namespace {
 
-constexpr char kStyle[] = R"css(
+constexpr char kApiStyle[] = R"css(
 body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 60rem; padding: 0 1rem; color: #1a1a1a; background: #fff }
 h2 { font-size: 1.1rem; margin: 2.2rem 0 .2rem } code, pre { font-size: .85rem }
 b { display: inline-block; min-width: 4.5rem; font-family: monospace }
@@ -56,14 +56,14 @@ std::string Base64OfSha256(const std::string& text) {
 Reply GetApiPage(const Call&) {
   static const std::string kPolicy = "default-src 'none'; connect-src 'self'; script-src 'sha256-" +
                                      Base64OfSha256(kScript) + "'; style-src 'sha256-" +
-                                     Base64OfSha256(kStyle) +
+                                     Base64OfSha256(kApiStyle) +
                                      "'; base-uri 'none'; form-action 'none'; "
                                      "frame-ancestors 'none'";
   static const std::string kPage = std::string(
                                        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">"
                                        "<meta name=\"viewport\" content=\"width=device-width\">"
                                        "<title>plenum: the service</title><style>") +
-                                   kStyle +
+                                   kApiStyle +
                                    "</style><main><h1>plenum: the service</h1></main><script>" +
                                    kScript + "</script></html>\n";
   return {200,

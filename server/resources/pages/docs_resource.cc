@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr char kFirstPage[] = "index.html";
 // The theme sets colours by styles in its pages; scripts stand in files of their own
 // (docs/conf.py).
-constexpr char kPolicy[] =
+constexpr char kDocsPolicy[] =
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' "
     "data:; font-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'self'; "
     "frame-ancestors 'none'";
@@ -37,7 +37,7 @@ constexpr std::pair<std::string_view, const char*> kTypes[] = {
     {".ico", "image/x-icon"},
     {".woff2", "font/woff2"}};
 
-const char* ContentType(std::string_view path) {
+const char* DocsContentType(std::string_view path) {
   const auto* type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                   [&](const auto& one) { return path.ends_with(one.first); });
   return type == std::end(kTypes) ? "application/octet-stream" : type->second;
@@ -109,13 +109,13 @@ Reply GetDocs(const fs::path& folder, const Call& call) {
   const std::string etag = ETag(*bytes);
   const bool known = IsKnown(call, etag);
   return {known ? 304 : 200,
-          ContentType(file->native()),
+          DocsContentType(file->native()),
           known ? std::string() : *std::move(bytes),
           {{"ETag", etag},
            {"Cache-Control", "no-cache"},
            {"X-Content-Type-Options", "nosniff"},
            {"Referrer-Policy", "no-referrer"},
-           {"Content-Security-Policy", kPolicy}},
+           {"Content-Security-Policy", kDocsPolicy}},
           {}};
 }
 

@@ -12,7 +12,7 @@
 namespace plenum::server {
 namespace {
 
-constexpr char kPolicy[] =
+constexpr char kPagePolicy[] =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -23,7 +23,7 @@ const PageFile* Find(std::string_view path) {
   return file == files.end() ? nullptr : &*file;
 }
 
-const char* ContentType(std::string_view path) {
+const char* PageContentType(std::string_view path) {
   if (path.ends_with(".html")) return "text/html; charset=utf-8";
   if (path.ends_with(".js")) return "text/javascript; charset=utf-8";
   if (path.ends_with(".css")) return "text/css; charset=utf-8";
@@ -44,12 +44,12 @@ Bytes BytesOf(const PageFile& file) {
 
 Reply FileReply(const PageFile& file, const char* cache_control) {
   Reply reply{200,
-              ContentType(file.path),
+              PageContentType(file.path),
               "",
               {{"Cache-Control", cache_control},
                {"X-Content-Type-Options", "nosniff"},
                {"Referrer-Policy", "no-referrer"},
-               {"Content-Security-Policy", kPolicy}},
+               {"Content-Security-Policy", kPagePolicy}},
               {}};
   reply.tail = {BytesOf(file)};
   return reply;

@@ -13,7 +13,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace catalogue_parts_test {
 
 TEST(Units, AgreeWithNumbersWorkedOutByHand) {
   const model::Ambient ambient{.pressure_pa = 95e3, .temperature_k = 300.0};
@@ -176,5 +176,5 @@ TEST(FamilyTables, AgreeWithTheCatalogue) {
   }
 }
 
-}  // namespace
+}  // namespace catalogue_parts_test
 }  // namespace plenum::api

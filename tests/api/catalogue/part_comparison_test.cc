@@ -7,7 +7,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::api {
-namespace {
+namespace part_comparison_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -58,5 +58,5 @@ TEST(PartComparison, TakesTwoToEightDifferentParts) {
   EXPECT_THAT(DetailAt(CheckCompared({"a", "b", "a"}), "/ids"), HasSubstr("\"a\" more than once"));
 }
 
-}  // namespace
+}  // namespace part_comparison_test
 }  // namespace plenum::api

@@ -19,7 +19,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace part_document_test {
 
 using testing::HasSubstr;
 
@@ -254,5 +254,5 @@ TEST(Parts, ProvenanceOfAMissingValueIsRefused) {
               HasSubstr("no value of price_eur"));
 }
 
-}  // namespace
+}  // namespace part_document_test
 }  // namespace plenum::api

@@ -10,7 +10,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::api {
-namespace {
+namespace part_facets_test {
 
 Json FacetsOfAll(const std::vector<catalog::Part>& parts) {
   std::vector<std::uint32_t> rows(parts.size());
@@ -89,5 +89,5 @@ TEST(PartFacets, OfManyValuesShowsThoseThatMostPartsHave) {
   EXPECT_EQ(facets["more"], Parse(R"({"series": 4})"));
 }
 
-}  // namespace
+}  // namespace part_facets_test
 }  // namespace plenum::api

@@ -16,7 +16,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::api {
-namespace {
+namespace part_query_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -302,5 +302,5 @@ TEST(PartQuery, MutatedQueriesAreReadOrRefused) {
   EXPECT_GT(refused, 1000);
 }
 
-}  // namespace
+}  // namespace part_query_test
 }  // namespace plenum::api

@@ -12,7 +12,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::api {
-namespace {
+namespace part_search_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -172,5 +172,5 @@ TEST(PartSearch, FindsTheSameWhateverTheOrderOfWords) {
   } while (std::next_permutation(words.begin(), words.end()));
 }
 
-}  // namespace
+}  // namespace part_search_test
 }  // namespace plenum::api

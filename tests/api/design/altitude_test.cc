@@ -9,7 +9,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace altitude_test {
 
 // physics, 2.18: p_amb/100 kPa times the curve read at the same ratio of pressures.
 TEST(Altitude, APumpDeliversTheShareThatTheAirHas) {
@@ -62,5 +62,5 @@ TEST(Altitude, ADesignWithAPumpSustainsLess) {
   }
 }
 
-}  // namespace
+}  // namespace altitude_test
 }  // namespace plenum::api

@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace designs_test {
 
 using optimizer::Family;
 
@@ -194,5 +194,5 @@ TEST(RenderAnswer, SeveralGroupsGiveTheLargestValveDutyAndAllOfThem) {
   EXPECT_EQ(design["parts"][1]["group"], "thumb");
 }
 
-}  // namespace
+}  // namespace designs_test
 }  // namespace plenum::api

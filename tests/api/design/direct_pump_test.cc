@@ -10,7 +10,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace direct_pump_test {
 
 // A pump for one group of slow fingers.
 Json Asked(int groups = 1) {
@@ -271,5 +271,5 @@ TEST(OwnPumps, AGivenDesignIsCheckedForItsNumberAndItsValves) {
   EXPECT_NE(said(pair).find("has a way for filling, too"), std::string::npos) << said(pair);
 }
 
-}  // namespace
+}  // namespace direct_pump_test
 }  // namespace plenum::api

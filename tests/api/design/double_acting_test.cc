@@ -10,7 +10,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace double_acting_test {
 
 constexpr double kPi = 3.14159265358979;
 
@@ -184,5 +184,5 @@ TEST(DoubleActing, NamesWhatIsWrong) {
   EXPECT_TRUE(refused);
 }
 
-}  // namespace
+}  // namespace double_acting_test
 }  // namespace plenum::api

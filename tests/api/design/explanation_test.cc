@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace explanation_test {
 
 TEST(RenderPrice, SaysWhatIsSavedOrThatItIsNotKnown) {
   optimizer::Price price{"/duty/actuations", 1000.0, 900.0, optimizer::Status::kOptimal, 1.5, 1.5};
@@ -64,5 +64,5 @@ TEST(AnswerRequest, ExplainsAndDrawsWhatIsAskedFor) {
             answer["designs"][0]["robustness"]);
 }
 
-}  // namespace
+}  // namespace explanation_test
 }  // namespace plenum::api

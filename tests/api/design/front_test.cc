@@ -5,7 +5,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace front_test {
 
 TEST(AddFront, NamesPointsAndWhatWasNotSearched) {
   optimizer::Front front;
@@ -26,5 +26,5 @@ TEST(AddFront, NamesPointsAndWhatWasNotSearched) {
       "unexplored": [ { "limits": { "mass_kg_max": 2.4 }, "energy_wh_min": 0.5 } ] } })"));
 }
 
-}  // namespace
+}  // namespace front_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace gait_test {
 
 // Four legs that walk: each bends in its own quarter of the period.
 Json Asked() {
@@ -126,5 +126,5 @@ TEST(GaitRequestTest, Defaults) {
   EXPECT_EQ(optimizer::MeetingOf(problem), optimizer::Meeting::kAlone);
 }
 
-}  // namespace
+}  // namespace gait_test
 }  // namespace plenum::api

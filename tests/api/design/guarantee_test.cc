@@ -16,7 +16,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace guarantee_test {
 
 using optimizer::Answer;
 using optimizer::Problem;
@@ -256,5 +256,5 @@ TEST(GuaranteeTest, WhatCannotBeGuaranteedIsRefusedByName) {
       ErrorsOf(ParseRequirements(With(two, "/duty/simultaneous", false), Project().parts)).empty());
 }
 
-}  // namespace
+}  // namespace guarantee_test
 }  // namespace plenum::api

@@ -6,7 +6,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace hints_test {
 
 Json Arm(const Json& configurations) {
   Json request = Example("tank_arm");
@@ -53,5 +53,5 @@ TEST(Hints, NameADesignWhereTheNamedConfigurationsHaveNone) {
   EXPECT_TRUE(mains);
 }
 
-}  // namespace
+}  // namespace hints_test
 }  // namespace plenum::api

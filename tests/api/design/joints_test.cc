@@ -8,7 +8,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace joints_test {
 
 using testing::HasSubstr;
 
@@ -145,5 +145,5 @@ TEST(JointsTest, SeveralBottlesHaveAManifoldForTheirPressure) {
   EXPECT_EQ(ids.size(), 2U);
 }
 
-}  // namespace
+}  // namespace joints_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace lists_test {
 
 TEST(ListsTest, OfKindsUnlessAskedOtherwise) {
   const Json request = With(Example("gripper"), "/ranking", {{"proof", true}});
@@ -112,5 +112,5 @@ TEST(ListsTest, ByCost) {
   EXPECT_EQ(Refusals(least), "");
 }
 
-}  // namespace
+}  // namespace lists_test
 }  // namespace plenum::api

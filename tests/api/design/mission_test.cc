@@ -5,7 +5,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace mission_test {
 
 // A shifter: two small cylinders now and then, out of cartridges.
 Json Asked(double actuations) {
@@ -82,5 +82,5 @@ TEST(Mission, WhatWouldMakeItPossibleDoes) {
   }
 }
 
-}  // namespace
+}  // namespace mission_test
 }  // namespace plenum::api

@@ -6,7 +6,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace own_test {
 
 Json ByCost() {
   Json request = Example("gripper");
@@ -58,5 +58,5 @@ TEST(OwnTest, AnUnknownPartIsNamed) {
   EXPECT_NE(DetailAt(errors, "/own/0").find("no part \"no-such-part\""), std::string::npos);
 }
 
-}  // namespace
+}  // namespace own_test
 }  // namespace plenum::api

@@ -11,7 +11,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace power_test {
 
 Json Powered(const std::string& example, Json power) {
   Json request = Example(example);
@@ -189,5 +189,5 @@ TEST(PowerTest, WhatDoesNotFitIsNamed) {
             "");
 }
 
-}  // namespace
+}  // namespace power_test
 }  // namespace plenum::api

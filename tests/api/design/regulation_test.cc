@@ -7,7 +7,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace regulation_test {
 
 using testing::HasSubstr;
 
@@ -114,5 +114,5 @@ TEST(RegulationTest, WhatHasNoneOfItsOwnIsSaid) {
   EXPECT_EQ(errors[0].pointer, "/supply/regulation");
 }
 
-}  // namespace
+}  // namespace regulation_test
 }  // namespace plenum::api

@@ -9,7 +9,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace savings_test {
 
 using Rows = std::vector<catalog::Part>;
 
@@ -113,5 +113,5 @@ TEST(Savings, TogetherTestsOfAPumpMakeADesignOnPaperAGuaranteedOne) {
   ExpectNeeded(request, Answered(request, Project().parts));
 }
 
-}  // namespace
+}  // namespace savings_test
 }  // namespace plenum::api

@@ -10,7 +10,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace tank_test {
 
 // The example, of a tank alone; `regulated`: the fill is more than the lines stand.
 Json Asked(bool regulated) {
@@ -197,5 +197,5 @@ TEST(TankTest, AStopPressureIsForPumpsThatFillATank) {
   EXPECT_THAT(errors[0].pointer, ::testing::EndsWith("/settings/pump_stop_kpa_gauge"));
 }
 
-}  // namespace
+}  // namespace tank_test
 }  // namespace plenum::api

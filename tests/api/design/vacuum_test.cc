@@ -11,7 +11,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace vacuum_test {
 
 Json Asked() {
   Json request = Example("jamming_gripper");
@@ -331,5 +331,5 @@ TEST(VacuumTest, ASimulationNamesWhatIsWrong) {
   EXPECT_EQ(pointers(rig), "/actuators/1/operating_pressure_kpa_gauge ");
 }
 
-}  // namespace
+}  // namespace vacuum_test
 }  // namespace plenum::api

@@ -10,7 +10,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace verification_draws_test {
 
 Json Drawn(const std::string& example, int count, int draws) {
   Json request = Example(example);
@@ -242,5 +242,5 @@ TEST(VerifyDraws, RefusesTampering) {
   ExpectRefused(Gripper(), all);
 }
 
-}  // namespace
+}  // namespace verification_draws_test
 }  // namespace plenum::api

@@ -12,7 +12,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace verification_test {
 
 Json Listed(const std::string& example, int count) {
   Json request = Example(example);
@@ -371,5 +371,5 @@ TEST(Verify, RefusesTampering) {
   ExpectRefused(Answered(request), all);
 }
 
-}  // namespace
+}  // namespace verification_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "tests/api/verified.h"
 
 namespace plenum::api {
-namespace {
+namespace wall_vacuum_test {
 
 Json FromWall() {
   Json request = Example("jamming_gripper");
@@ -151,5 +151,5 @@ TEST(WallVacuum, ADesignFromTheWallIsEvaluatedAsItWasListed) {
   EXPECT_EQ(std::get<Json>(evaluated)["works"], true);
 }
 
-}  // namespace
+}  // namespace wall_vacuum_test
 }  // namespace plenum::api

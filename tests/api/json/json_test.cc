@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace json_test {
 
 using std::string_literals::operator""s;
 
@@ -141,5 +141,5 @@ TEST(Number, RoundsToTwelveDigitsAndHasNoInfinity) {
   EXPECT_TRUE(Number(std::nan("")).is_null());
 }
 
-}  // namespace
+}  // namespace json_test
 }  // namespace plenum::api

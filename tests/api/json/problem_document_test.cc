@@ -5,7 +5,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace problem_document_test {
 
 TEST(ProblemDocument, ListsEveryError) {
   const Json document =
@@ -32,5 +32,5 @@ TEST(Lines, AreForAPerson) {
   EXPECT_EQ(Lines({{"/a", "is required"}, {"", "not JSON"}}), "/a: is required\nnot JSON\n");
 }
 
-}  // namespace
+}  // namespace problem_document_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace reader_test {
 
 struct Read {
   Json json;
@@ -105,5 +105,5 @@ TEST(Text, ClipCutsBetweenCharacters) {
   EXPECT_EQ(Clip("abc", 3), "abc");
 }
 
-}  // namespace
+}  // namespace reader_test
 }  // namespace plenum::api

@@ -13,7 +13,7 @@
 #include "tests/support/bench/bench_json.h"
 
 namespace plenum::api {
-namespace {
+namespace curves_test {
 
 using test::CaseKind;
 
@@ -147,5 +147,5 @@ TEST(InputsDocument, LongListsStandByTheirHash) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace curves_test
 }  // namespace plenum::api

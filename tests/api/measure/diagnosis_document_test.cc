@@ -10,7 +10,7 @@
 #include "tests/support/sample_diagnosis.h"
 
 namespace plenum::api {
-namespace {
+namespace diagnosis_document_test {
 
 using calibration::Dataset;
 using calibration::Diagnosis;
@@ -185,5 +185,5 @@ TEST(RenderDiagnosis, SurvivesAnyNumberAndAnyLength) {
   }
 }
 
-}  // namespace
+}  // namespace diagnosis_document_test
 }  // namespace plenum::api

@@ -14,7 +14,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace driving_document_test {
 
 using calibration::Dataset;
 
@@ -191,5 +191,5 @@ TEST(DrivingDocument, ColumnsOfATableAreItsChannels) {
   EXPECT_FALSE(plain.document["runs"][0]["channels"].contains("source_setpoint_kpa_gauge"));
 }
 
-}  // namespace
+}  // namespace driving_document_test
 }  // namespace plenum::api

@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace measurement_test {
 
 using calibration::Dataset;
 using calibration::Declared;
@@ -248,5 +248,5 @@ TEST(Measurement, SeveralFilesAreOneSession) {
   EXPECT_NEAR(dataset.runs[0].chamber.rest_volume_m3, 50e-6, 1e-15);
 }
 
-}  // namespace
+}  // namespace measurement_test
 }  // namespace plenum::api

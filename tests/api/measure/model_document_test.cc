@@ -19,7 +19,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace model_document_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -116,5 +116,5 @@ TEST(ModelRevision, TheAnswerComparesWithTheNominalOne) {
       Not(IsEmpty()));
 }
 
-}  // namespace
+}  // namespace model_document_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace nothing_fitted_test {
 
 constexpr double kAmbientKpa = 101.3, kStartKpa = 700.0, kNoiseKpa = 0.1;
 constexpr double kStartBar = (kStartKpa + kAmbientKpa) / 100.0;
@@ -92,5 +92,5 @@ TEST(NothingFitted, NoiseAloneIsAdequate) {
   EXPECT_TRUE(answer.at("fitted").empty());
 }
 
-}  // namespace
+}  // namespace nothing_fitted_test
 }  // namespace plenum::api

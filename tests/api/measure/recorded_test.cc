@@ -12,7 +12,7 @@
 #include "tests/support/bench/bench_json.h"
 
 namespace plenum::api {
-namespace {
+namespace recorded_test {
 
 using calibration::Dataset;
 using calibration::Declared;
@@ -149,5 +149,5 @@ TEST(RecordedDocument, TheAnswerIsItsModelWithInstantsAndGauge) {
   }
 }
 
-}  // namespace
+}  // namespace recorded_test
 }  // namespace plenum::api

@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace rig_parts_test {
 
 using calibration::MeasuredNumber;
 using testing::HasSubstr;
@@ -119,5 +119,5 @@ TEST(RigParts, AreFoundInRunsToo) {
               HasSubstr("no part"));
 }
 
-}  // namespace
+}  // namespace rig_parts_test
 }  // namespace plenum::api

@@ -13,7 +13,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace rig_world_test {
 
 using calibration::Dataset;
 using calibration::Declared;
@@ -189,5 +189,5 @@ TEST(RigWorld, WhatCannotBeIsNamed) {
   EXPECT_EQ(first_error(document), "/rig/supply/flow_l_per_min_anr");
 }
 
-}  // namespace
+}  // namespace rig_world_test
 }  // namespace plenum::api

@@ -14,7 +14,7 @@
 #include "tests/support/sample_diagnosis.h"
 
 namespace plenum::api {
-namespace {
+namespace wrong_numbers_test {
 
 using calibration::Declared;
 
@@ -138,5 +138,5 @@ TEST(WrongNumbersDocument, AnAnswerOfANumberAloneIsItsModel) {
   EXPECT_TRUE(found.revision->factors.empty());
 }
 
-}  // namespace
+}  // namespace wrong_numbers_test
 }  // namespace plenum::api

@@ -16,7 +16,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace loop_test {
 
 constexpr const char* kPart = "generic-lp-small-200kpa";
 
@@ -84,5 +84,5 @@ TEST(Loop, ASmallerUncertaintyNeverMakesTheGuaranteedListHeavier) {
   }
 }
 
-}  // namespace
+}  // namespace loop_test
 }  // namespace plenum::api

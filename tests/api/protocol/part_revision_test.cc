@@ -11,7 +11,7 @@
 #include "tests/catalog/folder.h"
 
 namespace plenum::api {
-namespace {
+namespace part_revision_test {
 
 using Origin = catalog::Provenance;
 using testing::HasSubstr;
@@ -159,5 +159,5 @@ TEST_F(PartRevisionInStore, IsOneRevisionThatCanBeUndone) {
   EXPECT_FALSE(SavePart(store, "none", answer, Files(), false, {})["refused"].empty());
 }
 
-}  // namespace
+}  // namespace part_revision_test
 }  // namespace plenum::api

@@ -14,7 +14,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace protocol_document_test {
 
 Json Of(const char* family, const TestSensor& sensor = {}) {
   return RenderProtocol(PartOf(family), sensor);
@@ -111,5 +111,5 @@ TEST(Protocol, OtherParameterIsRefusedByName) {
   EXPECT_EQ(std::get<TestSensor>(good).bottle_l, 2.0);
 }
 
-}  // namespace
+}  // namespace protocol_document_test
 }  // namespace plenum::api

@@ -7,7 +7,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace map_test {
 
 using testing::HasSubstr;
 
@@ -119,5 +119,5 @@ TEST(Map, NamesEveryFieldThatIsWrong) {
   EXPECT_THAT(DetailAt(ErrorsOf(RunMap(huge)), ""), HasSubstr("at most 1e5 points"));
 }
 
-}  // namespace
+}  // namespace map_test
 }  // namespace plenum::api

@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace shape_reader_test {
 
 using testing::HasSubstr;
 
@@ -130,5 +130,5 @@ TEST(Shapes, StandAlone) {
               HasSubstr("give either pouch or body, not both"));
 }
 
-}  // namespace
+}  // namespace shape_reader_test
 }  // namespace plenum::api

@@ -14,7 +14,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace simulation_effects_test {
 
 using testing::HasSubstr;
 
@@ -210,5 +210,5 @@ TEST(SimulationEffects, TheExampleRuns) {
   EXPECT_TRUE(answer["groups"][1].contains("temperature_k"));
 }
 
-}  // namespace
+}  // namespace simulation_effects_test
 }  // namespace plenum::api

@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace simulation_source_test {
 
 Json Simulated(const Json& request) {
   const auto result = RunSimulation(request, SmallCatalogue());
@@ -122,5 +122,5 @@ TEST(SimulationSource, APumpWithoutAReservoirFillsTheActuatorItself) {
   EXPECT_EQ(errors[0].pointer, "/source/kind");
 }
 
-}  // namespace
+}  // namespace simulation_source_test
 }  // namespace plenum::api

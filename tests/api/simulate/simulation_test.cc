@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace simulation_test {
 
 using testing::HasSubstr;
 
@@ -205,5 +205,5 @@ TEST(Simulation, NamesEveryFieldThatIsWrong) {
               HasSubstr("is required"));
 }
 
-}  // namespace
+}  // namespace simulation_test
 }  // namespace plenum::api

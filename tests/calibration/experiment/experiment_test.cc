@@ -14,7 +14,7 @@
 #include "tests/support/effects/effect_form.h"
 
 namespace plenum::calibration {
-namespace {
+namespace experiment_test {
 
 using model::ValveState;
 using test::EffectRig;
@@ -209,5 +209,5 @@ TEST(DesignExperiment, NeedsTwoFits) {
   EXPECT_FALSE(DesignExperiment(fitted.data, {}, {}).has_value());
 }
 
-}  // namespace
+}  // namespace experiment_test
 }  // namespace plenum::calibration

@@ -10,7 +10,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace proposals_test {
 
 using model::ValveState;
 
@@ -129,5 +129,5 @@ TEST(ProposeRuns, StrokesThatNeverEndAreNotProposed) {
   EXPECT_TRUE(ProposeRuns(Dataset{}, {}, 1.0, kInfinity, kHalfASecond).empty());
 }
 
-}  // namespace
+}  // namespace proposals_test
 }  // namespace plenum::calibration

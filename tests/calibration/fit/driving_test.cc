@@ -14,7 +14,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace driving_test {
 
 using enum model::ValveState;
 using Course = std::function<double(double)>;
@@ -301,5 +301,5 @@ TEST(DrivingRecords, DerivativesAgreeWithDifferences) {
   EXPECT_GT(most, 1e12);
 }
 
-}  // namespace
+}  // namespace driving_test
 }  // namespace plenum::calibration

@@ -8,7 +8,7 @@
 #include "tests/support/bench/bench_dataset.h"
 
 namespace plenum::calibration {
-namespace {
+namespace fit_test {
 
 using test::EffectRig;
 using test::MeasuredBench;
@@ -234,5 +234,5 @@ TEST(Fit, FastEffectsAreFoundWhereTheyAre) {
               0.007, 7e-4);
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace plenum::calibration

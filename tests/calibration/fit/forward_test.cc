@@ -9,7 +9,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace forward_test {
 
 using test::EffectRig;
 using test::MeasuredBench;
@@ -155,5 +155,5 @@ TEST(Forward, TemperatureIsTheAmbientsWithoutHeatTransfer) {
             dataset.runs[0].ambient.temperature_k + 1.0);
 }
 
-}  // namespace
+}  // namespace forward_test
 }  // namespace plenum::calibration

@@ -10,7 +10,7 @@
 #include "tests/calibration/bottle.h"
 
 namespace plenum::calibration {
-namespace {
+namespace measured_test {
 
 using test::BottleTestOfAPump;
 using test::BottleTestOfAValve;
@@ -181,5 +181,5 @@ TEST(Measured, ACurveOfAPumpHoldsTheTruth) {
   EXPECT_LE(share, 0.99);
 }
 
-}  // namespace
+}  // namespace measured_test
 }  // namespace plenum::calibration

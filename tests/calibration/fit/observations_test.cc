@@ -7,7 +7,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace observations_test {
 
 using test::EffectRig;
 using test::MeasuredBench;
@@ -133,5 +133,5 @@ TEST(Observations, NoiseOfManyReadingsIsTheirOwn) {
   EXPECT_EQ(observed[0].signals.front().sigma, sigma_pa);
 }
 
-}  // namespace
+}  // namespace observations_test
 }  // namespace plenum::calibration

@@ -9,7 +9,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace profile_test {
 
 using test::EffectRig;
 using test::MeasuredBench;
@@ -114,5 +114,5 @@ TEST(Profile, FollowsABentRidge) {
   EXPECT_GE(ExpectEndsAtTheRise(f, truth), 2);
 }
 
-}  // namespace
+}  // namespace profile_test
 }  // namespace plenum::calibration

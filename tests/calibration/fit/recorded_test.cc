@@ -11,7 +11,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace recorded_test {
 
 using test::EffectRig;
 using test::MeasuredBench;
@@ -178,5 +178,5 @@ TEST(Recorded, WhereNoReadingLiesBetweenKnownCommandsNothingIsGuessed) {
   EXPECT_TRUE(std::isnan(run.valve[1].time_s));
 }
 
-}  // namespace
+}  // namespace recorded_test
 }  // namespace plenum::calibration

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plenum::calibration {
-namespace {
+namespace source_record_test {
 
 // A regulator that dips while an actuator fills, twice.
 double Dipping(double t_s) {
@@ -58,5 +58,5 @@ TEST(SourceRecord, CountsSamplesOfOneInstantTogether) {
   EXPECT_EQ(CondenseRecord(std::vector{0.5}, std::vector{4.0}, 1.0).At(9.0), 4.0);
 }
 
-}  // namespace
+}  // namespace source_record_test
 }  // namespace plenum::calibration

@@ -9,7 +9,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace start_scan_test {
 
 constexpr double kLengthM = 0.33, kBoreM = 3.3e-3, kNoisePa = 30.0;
 
@@ -102,5 +102,5 @@ TEST(StartScan, WhatDoesNotRingStartsAsUsual) {
             EffectStarts(delay, bench.data.sizes));
 }
 
-}  // namespace
+}  // namespace start_scan_test
 }  // namespace plenum::calibration

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace plenum::calibration {
-namespace {
+namespace within_bounds_test {
 
 // |A·u − b|², and how often it was asked for.
 class Squares : public ceres::CostFunction {
@@ -140,5 +140,5 @@ TEST(WithinBounds, StaysWhereAllArePressed) {
   EXPECT_LE(squares->asked, 3);
 }
 
-}  // namespace
+}  // namespace within_bounds_test
 }  // namespace plenum::calibration

@@ -12,7 +12,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace closeness_test {
 
 // A rise and a hold, never emptied, with every declared number exact.
 struct OneRun {
@@ -110,5 +110,5 @@ TEST(Closeness, TheGapScattersAsItsNoise) {
   EXPECT_LT(squares, 3.0 * expected);
 }
 
-}  // namespace
+}  // namespace closeness_test
 }  // namespace plenum::calibration

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace plenum::calibration {
-namespace {
+namespace evidence_test {
 
 // Gauss–Markov noise with correlation ρ from one sample to the next has φ = (1 + ρ)/(1 − ρ).
 TEST(Evidence, MemoryOfAGaussMarkovSeries) {
@@ -86,5 +86,5 @@ TEST(Evidence, WhatStandsShrinksWithTheMemory) {
                    1000.0 * std::log(1.2) + 2.0 * std::log(1000.0));
 }
 
-}  // namespace
+}  // namespace evidence_test
 }  // namespace plenum::calibration

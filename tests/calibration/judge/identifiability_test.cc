@@ -8,7 +8,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace identifiability_test {
 
 using model::ValveState;
 using testing::IsEmpty;
@@ -102,5 +102,5 @@ TEST(Identify, ANumberThatNoReadingDependsOnIsSilent) {
   EXPECT_THAT(found.aliases, IsEmpty());
 }
 
-}  // namespace
+}  // namespace identifiability_test
 }  // namespace plenum::calibration

@@ -12,7 +12,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace residual_test {
 
 using model::ValveState;
 using test::AgreesWithRate;
@@ -355,5 +355,5 @@ TEST(Whiteness, OneRunAmongManyMayNotHide) {
   EXPECT_FALSE(AssessResiduals(runs, 0).white);
 }
 
-}  // namespace
+}  // namespace residual_test
 }  // namespace plenum::calibration

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace plenum::calibration {
-namespace {
+namespace verdict_test {
 
 Leftover Noise() {
   Leftover leftover;
@@ -110,5 +110,5 @@ TEST(Verdict, OfUnseenRuns) {
   EXPECT_FALSE(PredictsBetter(3.0, 3.0).value());
 }
 
-}  // namespace
+}  // namespace verdict_test
 }  // namespace plenum::calibration

@@ -12,7 +12,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace wider_laws_test {
 
 using model::FindEffect;
 
@@ -103,5 +103,5 @@ TEST(StandsAtLimitAlone, NotWhereTheDataCouldNotHaveShownIt) {
   EXPECT_EQ(TiedWith(fitted.bench, fitted.contenders, fitted.heat(), 1.0, 1e3).size(), 2u);
 }
 
-}  // namespace
+}  // namespace wider_laws_test
 }  // namespace plenum::calibration

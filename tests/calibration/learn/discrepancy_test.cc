@@ -12,7 +12,7 @@
 #include "tests/support/bench/bench_dataset.h"
 
 namespace plenum::calibration {
-namespace {
+namespace discrepancy_test {
 
 struct Learning {
   explicit Learning(Dataset data_set)
@@ -165,5 +165,5 @@ TEST(Discrepancy, NothingIsLearnedFromNoise) {
   EXPECT_EQ(*learned.discrepancy.holdout_after_pa, *learned.discrepancy.holdout_before_pa);
 }
 
-}  // namespace
+}  // namespace discrepancy_test
 }  // namespace plenum::calibration

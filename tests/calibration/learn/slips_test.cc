@@ -7,7 +7,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace slips_test {
 
 using Record = Run;  // inside a test Run is the test's own
 using test::EffectRig;
@@ -177,5 +177,5 @@ TEST(Slips, MissingPhysicsIsNone) {
     EXPECT_TRUE(SuspectedSlips(MeasuredBench(change, 35), nullptr).empty());
 }
 
-}  // namespace
+}  // namespace slips_test
 }  // namespace plenum::calibration

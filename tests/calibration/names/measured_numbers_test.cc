@@ -11,7 +11,7 @@
 #include "tests/calibration/bottle.h"
 
 namespace plenum::calibration {
-namespace {
+namespace measured_numbers_test {
 
 using test::BottleTestOfAPump;
 using test::BottleTestOfAValve;
@@ -115,5 +115,5 @@ TEST(MeasuredNumbers, APumpThatStallsIsNotMeasuredBeyond) {
   EXPECT_TRUE(refused || !WhyNotKept(dataset, At(diagnosis, 3)).empty());
 }
 
-}  // namespace
+}  // namespace measured_numbers_test
 }  // namespace plenum::calibration

@@ -12,7 +12,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace stability_test {
 
 using testing::ElementsAre;
 
@@ -151,5 +151,5 @@ TEST(Stability, EverySecondReadingLeavesTheOthers) {
   }
 }
 
-}  // namespace
+}  // namespace stability_test
 }  // namespace plenum::calibration

@@ -14,7 +14,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace wrong_numbers_test {
 
 using test::EffectRig;
 using testing::Contains;
@@ -243,5 +243,5 @@ TEST(WrongNumbers, NorIsADelayWithinASampleOfAFewAStroke) {
   }
 }
 
-}  // namespace
+}  // namespace wrong_numbers_test
 }  // namespace plenum::calibration

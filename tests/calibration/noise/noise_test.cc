@@ -11,7 +11,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace noise_test {
 
 using test::AtMostRate;
 using test::CorrelatedNoise;
@@ -320,5 +320,5 @@ TEST(Noise, WithoutAClosedValveTheSettledTailCounts) {
   EXPECT_NEAR(noise.sigma_pa, kSigmaPa, 0.2 * kSigmaPa);
 }
 
-}  // namespace
+}  // namespace noise_test
 }  // namespace plenum::calibration

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace plenum::calibration {
-namespace {
+namespace phases_test {
 
 using model::ValveState;
 
@@ -64,5 +64,5 @@ TEST(Phases, CommandsOutsideTheSamplesMakeNoPhase) {
   EXPECT_TRUE(PhasesOf(calibration::Run{}).empty());
 }
 
-}  // namespace
+}  // namespace phases_test
 }  // namespace plenum::calibration

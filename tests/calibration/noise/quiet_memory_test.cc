@@ -9,7 +9,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace quiet_memory_test {
 
 using test::AtMostRate;
 using test::CorrelatedNoise;
@@ -103,5 +103,5 @@ TEST(QuietMemory, WithoutQuietReadingsAShortMemoryIsAllowed) {
   for (const NoiseMemory& memory : none.allowed) EXPECT_LT(memory.theta_s, 5.0 * kSpacingS);
 }
 
-}  // namespace
+}  // namespace quiet_memory_test
 }  // namespace plenum::calibration

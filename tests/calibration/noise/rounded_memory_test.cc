@@ -9,7 +9,7 @@
 #include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
-namespace {
+namespace rounded_memory_test {
 
 constexpr double kQuantum = 1.0, kNoise = 0.27, kTheta = 3.6, kShare = 0.45;
 
@@ -74,5 +74,5 @@ TEST(RoundedMemory, OfWhiteNoiseIsNone) {
     }
 }
 
-}  // namespace
+}  // namespace rounded_memory_test
 }  // namespace plenum::calibration

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace plenum::calibration {
-namespace {
+namespace rounding_test {
 
 // Mean of readings on the grid …, −q, 0, q, … of m plus normal noise, by summing all chances.
 double MeanReading(double m, double quantum, double noise) {
@@ -48,5 +48,5 @@ TEST(Grid, TheNoiseBehindItIsFound) {
   EXPECT_NEAR(LikeliestNoise(readings, model, 1.0), 0.22, 0.015);
 }
 
-}  // namespace
+}  // namespace rounding_test
 }  // namespace plenum::calibration

@@ -10,7 +10,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace stated_sensor_test {
 
 using test::MeasuredBench;
 
@@ -79,5 +79,5 @@ TEST(StatedSensor, AModelIsFittedToWhatTheGaugeShows) {
     EXPECT_NEAR(factor.value, 1.0, 0.02);
 }
 
-}  // namespace
+}  // namespace stated_sensor_test
 }  // namespace plenum::calibration

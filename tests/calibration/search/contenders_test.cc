@@ -13,7 +13,7 @@
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
-namespace {
+namespace contenders_test {
 
 // A chamber that empties through a clogged exhaust. Without it the declared numbers fit only beyond
 // their uncertainties, so that fits with an effect start from what was declared, far off.
@@ -162,5 +162,5 @@ TEST(Contenders, LeadBeforeAllAreTriedAgain) {
   EXPECT_TRUE(again.enough);
 }
 
-}  // namespace
+}  // namespace contenders_test
 }  // namespace plenum::calibration

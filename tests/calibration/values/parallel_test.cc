@@ -6,7 +6,7 @@
 #include "calibration/search/contenders.h"
 
 namespace plenum::calibration {
-namespace {
+namespace parallel_test {
 
 TEST(Parallel, AProcessHeldToOneCoreUsesOneThread) {
   cpu_set_t before;
@@ -23,5 +23,5 @@ TEST(Parallel, AProcessHeldToOneCoreUsesOneThread) {
   ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
-}  // namespace
+}  // namespace parallel_test
 }  // namespace plenum::calibration

@@ -6,7 +6,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace check_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -64,5 +64,5 @@ TEST(Coverage, CountsValuesByFamily) {
   EXPECT_THAT(CoverageOf(parts), ElementsAre(expected));
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace plenum::catalog

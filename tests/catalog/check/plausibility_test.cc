@@ -8,7 +8,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace plausibility_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -83,5 +83,5 @@ TEST(Plausibility, NamesPartsWithoutAPrice) {
   EXPECT_THAT(FindGaps(parts), IsEmpty());
 }
 
-}  // namespace
+}  // namespace plausibility_test
 }  // namespace plenum::catalog

@@ -7,7 +7,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace csv_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -235,5 +235,5 @@ TEST(Csv, RefusesBrokenQuotesAndBytes) {
   EXPECT_THAT(ReadCsv("tank", kHeader).errors, ElementsAre(Error(1, "", "\"tank\"")));
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace plenum::catalog

@@ -10,7 +10,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace fields_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -217,5 +217,5 @@ TEST(Validate, ChecksPairsAndWholeNumbers) {
   EXPECT_THAT(Validate(valve), ElementsAre(Error("channels", "whole number, is 1.5")));
 }
 
-}  // namespace
+}  // namespace fields_test
 }  // namespace plenum::catalog

@@ -6,7 +6,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace price_test {
 
 using ::testing::HasSubstr;
 
@@ -74,5 +74,5 @@ TEST(Price, OfTubingIsThatOfAMetre) {
   EXPECT_FALSE(tube.numbers.contains("price_eur"));
 }
 
-}  // namespace
+}  // namespace price_test
 }  // namespace plenum::catalog

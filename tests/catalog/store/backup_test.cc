@@ -12,7 +12,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::catalog {
-namespace {
+namespace backup_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -162,5 +162,5 @@ TEST_F(Backups, MendsADamagedCatalogue) {
   EXPECT_THAT(Read().Check(), IsEmpty());
 }
 
-}  // namespace
+}  // namespace backup_test
 }  // namespace plenum::catalog

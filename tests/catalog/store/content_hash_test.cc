@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plenum::catalog {
-namespace {
+namespace content_hash_test {
 
 // Examples of FIPS 180-4 (NIST, SHA-256 test vectors).
 TEST(ContentHash, Sha256IsThatOfTheStandard) {
@@ -48,5 +48,5 @@ TEST(ContentHash, OfASetForgetsTheOrderAndWhatWasTakenBack) {
   EXPECT_EQ(other.Digits(), straight.Digits());
 }
 
-}  // namespace
+}  // namespace content_hash_test
 }  // namespace plenum::catalog

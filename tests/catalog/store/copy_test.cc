@@ -10,7 +10,7 @@
 #include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
-namespace {
+namespace copy_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -105,5 +105,5 @@ TEST_P(Copies, AreNotMadeOfADamagedCatalogue) {
 
 PLENUM_ON_EACH_STORE(Copies);
 
-}  // namespace
+}  // namespace copy_test
 }  // namespace plenum::catalog

@@ -18,7 +18,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::catalog {
-namespace {
+namespace crash_test {
 
 using ::testing::IsEmpty;
 namespace fs = std::filesystem;
@@ -186,5 +186,5 @@ TEST_F(Crash, MigratingIsAllOrNothing) {
   EXPECT_GT(old, 0);
 }
 
-}  // namespace
+}  // namespace crash_test
 }  // namespace plenum::catalog

@@ -10,7 +10,7 @@
 #include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
-namespace {
+namespace history_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -345,5 +345,5 @@ TEST_P(History, ReplacingTheSeedRecordsOnlyWhatChanged) {
 
 PLENUM_ON_EACH_STORE(History);
 
-}  // namespace
+}  // namespace history_test
 }  // namespace plenum::catalog

@@ -6,7 +6,7 @@
 #include "tests/catalog/folder.h"
 
 namespace plenum::catalog {
-namespace {
+namespace job_store_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -275,5 +275,5 @@ TEST_F(JobFile, ASweepAndItsJobsAreOne) {
   EXPECT_EQ(store.Ended("design").size(), 2u);
 }
 
-}  // namespace
+}  // namespace job_store_test
 }  // namespace plenum::catalog

@@ -8,7 +8,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::catalog {
-namespace {
+namespace migration_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -139,5 +139,5 @@ TEST_F(Migrating, AFileOfTheFutureIsRefusedAsItIs) {
   EXPECT_EQ(Bytes(path_), before);
 }
 
-}  // namespace
+}  // namespace migration_test
 }  // namespace plenum::catalog

@@ -7,7 +7,7 @@
 #include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
-namespace {
+namespace models_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -90,5 +90,5 @@ TEST(ModelNames, AreChecked) {
 
 PLENUM_ON_EACH_STORE(Models);
 
-}  // namespace
+}  // namespace models_test
 }  // namespace plenum::catalog

@@ -7,7 +7,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace part_record_test {
 
 // As releases with schema 2 and 3 wrote it: hashes of their revisions rest on these bytes.
 TEST(PartRecord, OfAPartWithoutDetailsIsWhatItWasBefore) {
@@ -57,5 +57,5 @@ TEST(PartRecord, RefusesWhatIsNone) {
     EXPECT_FALSE(ParseRecord(head + line)) << line;
 }
 
-}  // namespace
+}  // namespace part_record_test
 }  // namespace plenum::catalog

@@ -12,7 +12,7 @@
 #include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
-namespace {
+namespace parts_test {
 
 using ::testing::ElementsAre;
 
@@ -195,5 +195,5 @@ TEST_P(StoredParts, WritersAtOnceTakeTurnsAndLoseNothing) {
 
 PLENUM_ON_EACH_STORE(StoredParts);
 
-}  // namespace
+}  // namespace parts_test
 }  // namespace plenum::catalog

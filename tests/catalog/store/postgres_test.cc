@@ -12,7 +12,7 @@
 #include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
-namespace {
+namespace postgres_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -173,5 +173,5 @@ TEST(Addresses, AreRefusedWithoutTheirPassword) {
   }
 }
 
-}  // namespace
+}  // namespace postgres_test
 }  // namespace plenum::catalog

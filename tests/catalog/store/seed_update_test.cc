@@ -14,7 +14,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace seed_update_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -189,5 +189,5 @@ TEST_F(SeedUpdates, AnyHistoryOfUsersAndSeeds) {
   }
 }
 
-}  // namespace
+}  // namespace seed_update_test
 }  // namespace plenum::catalog

@@ -12,7 +12,7 @@
 #include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
-namespace {
+namespace shared_job_store_test {
 
 using std::chrono::milliseconds;
 using ::testing::ElementsAre;
@@ -322,5 +322,5 @@ TEST_P(SharedJobs, ManyWorkersDoEachJobOnceThroughCutsAndLosses) {
 
 INSTANTIATE_TEST_SUITE_P(Each, SharedJobs, ::testing::Values(Engine::kPostgresql), NameOf);
 
-}  // namespace
+}  // namespace shared_job_store_test
 }  // namespace plenum::catalog

@@ -14,7 +14,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace store_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -174,5 +174,5 @@ TEST_F(StoreTest, OpeningForReadingRollsBackADeadWriter) {
   EXPECT_THAT(store.Check(), ElementsAre());
 }
 
-}  // namespace
+}  // namespace store_test
 }  // namespace plenum::catalog

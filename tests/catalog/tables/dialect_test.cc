@@ -11,7 +11,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
-namespace {
+namespace dialect_test {
 
 using ::testing::ElementsAre;
 
@@ -224,5 +224,5 @@ TEST(Encodings, AreFoundOrAskedFor) {
   EXPECT_EQ(Decode(std::string("a\0b\0", 4), "").text, "ab");
 }
 
-}  // namespace
+}  // namespace dialect_test
 }  // namespace plenum::catalog

@@ -11,7 +11,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::catalog {
-namespace {
+namespace foreign_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -350,5 +350,5 @@ TEST(ForeignTables, TwoPartsNeverBecomeOne) {
   EXPECT_THAT(read.errors[0].detail, HasSubstr("is in row 2"));
 }
 
-}  // namespace
+}  // namespace foreign_test
 }  // namespace plenum::catalog

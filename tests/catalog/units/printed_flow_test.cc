@@ -7,7 +7,7 @@
 #include "catalog/units/quantity.h"
 
 namespace plenum::catalog {
-namespace {
+namespace printed_flow_test {
 
 using ::testing::HasSubstr;
 
@@ -145,5 +145,5 @@ TEST(PrintedFlow, StandsInACellOfCsv) {
             "sheet 7");
 }
 
-}  // namespace
+}  // namespace printed_flow_test
 }  // namespace plenum::catalog

@@ -9,7 +9,7 @@
 #include "catalog/fields/fields.h"
 
 namespace plenum::catalog {
-namespace {
+namespace quantity_test {
 
 using ::testing::HasSubstr;
 
@@ -203,5 +203,5 @@ TEST(Quantity, EveryFieldWithAUnitHasOneInItsName) {
     }
 }
 
-}  // namespace
+}  // namespace quantity_test
 }  // namespace plenum::catalog

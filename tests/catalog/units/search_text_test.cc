@@ -6,7 +6,7 @@
 #include <string>
 
 namespace plenum::catalog {
-namespace {
+namespace search_text_test {
 
 TEST(SearchWords, AreLowerCaseWithoutAccentsAndOuterSigns) {
   const std::pair<const char*, const char*> cases[] = {
@@ -44,5 +44,5 @@ TEST(SearchWords, OfAnyBytesAreTheirOwnWords) {
   }
 }
 
-}  // namespace
+}  // namespace search_text_test
 }  // namespace plenum::catalog

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plenum::catalog {
-namespace {
+namespace text_test {
 
 // By the definition: the last bytes are replaced (or equal), inserted, deleted, or swapped.
 std::size_t Distance(std::string_view a, std::string_view b) {
@@ -47,5 +47,5 @@ TEST(NearestName, IsThatOfTheSmallestDistance) {
   }
 }
 
-}  // namespace
+}  // namespace text_test
 }  // namespace plenum::catalog

@@ -11,7 +11,7 @@
 #include "tests/support/effects/effect_form.h"
 
 namespace plenum::test {
-namespace {
+namespace effect_form_laws_test {
 
 constexpr double kR = 287.05;
 
@@ -253,5 +253,5 @@ TEST(EffectForm, RampLeavesTheRestrictionAlone) {
   EXPECT_NEAR(SimulateEffects(rig, {0.1}, 1e-3).exhaust_kg, expected_kg, 1e-6 * expected_kg);
 }
 
-}  // namespace
+}  // namespace effect_form_laws_test
 }  // namespace plenum::test

@@ -11,7 +11,7 @@
 #include "tests/support/mass_form.h"
 
 namespace plenum::test {
-namespace {
+namespace effect_form_limits_test {
 
 struct Limit {
   std::string effect;
@@ -137,5 +137,5 @@ TEST(EffectForm, WithoutEffectsAgreesWithTheMassForm) {
   EXPECT_LT(LargestDifference(r.supply_pa, m.source_pa), 0.01);
 }
 
-}  // namespace
+}  // namespace effect_form_limits_test
 }  // namespace plenum::test

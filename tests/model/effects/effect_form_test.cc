@@ -17,7 +17,7 @@
 #include "tests/model/effects/effect_rigs.h"
 
 namespace plenum::test {
-namespace {
+namespace effect_form_test {
 
 // --- Published residuals ---------------------------------------------------------------------
 
@@ -245,5 +245,5 @@ TEST(Tube, CoolsTheGasThatLeaves) {
   EXPECT_NEAR(after.exhaust_kg - before.exhaust_kg, 0.1 * choked_kg_per_s, 1e-4 * choked_kg_per_s);
 }
 
-}  // namespace
+}  // namespace effect_form_test
 }  // namespace plenum::test

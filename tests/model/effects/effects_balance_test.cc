@@ -10,7 +10,7 @@
 #include "tests/model/effects/effects_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace effects_balance_test {
 
 using test::kUnitC;
 
@@ -84,5 +84,5 @@ TEST_P(EffectBalance, ClosesOverManyCycles) {
 INSTANTIATE_TEST_SUITE_P(Effects, EffectBalance, ::testing::ValuesIn(Cases()),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace effects_balance_test
 }  // namespace plenum::model

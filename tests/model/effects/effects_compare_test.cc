@@ -9,7 +9,7 @@
 #include "tests/model/effects/effects_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace effects_compare_test {
 
 using test::EffectResult;
 using test::EffectRig;
@@ -115,5 +115,5 @@ TEST(EffectsCompare, APlayAtItsEdgeIsPushedOnByARamp) {
   ExpectSame(rig, Integrator::kCvode, 1e-6);
 }
 
-}  // namespace
+}  // namespace effects_compare_test
 }  // namespace plenum::model

@@ -11,7 +11,7 @@
 #include "tests/model/effects/effects_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace effects_limits_test {
 
 using test::kCloseS;
 using test::kUnitC;
@@ -194,5 +194,5 @@ TEST(EffectCracking, TrapsThePressureThatItNeeds) {
   EXPECT_NEAR(Simulate(rig, options).groups[0].final_pressure_pa, 1.05e5, 1.0);
 }
 
-}  // namespace
+}  // namespace effects_limits_test
 }  // namespace plenum::model

@@ -11,7 +11,7 @@
 #include "tests/model/effects/effects_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace effects_oracle_test {
 
 using test::kCloseS;
 using test::kUnitC;
@@ -126,5 +126,5 @@ TEST(EffectTank, FollowsTheFirstLawWithoutHeat) {
   EXPECT_NEAR(*hottest - 273.15, 115.0, 1.0);  // published
 }
 
-}  // namespace
+}  // namespace effects_oracle_test
 }  // namespace plenum::model

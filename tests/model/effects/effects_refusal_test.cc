@@ -11,7 +11,7 @@
 #include "tests/model/effects/effects_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace effects_refusal_test {
 
 using testing::HasSubstr;
 
@@ -123,5 +123,5 @@ TEST(EffectRefusal, OfAWallThatSwingsThroughZero) {
   ExpectEndsWithReason(rig);
 }
 
-}  // namespace
+}  // namespace effects_refusal_test
 }  // namespace plenum::model

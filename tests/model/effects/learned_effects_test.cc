@@ -11,7 +11,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace learned_effects_test {
 
 using enum ValveState;
 
@@ -242,5 +242,5 @@ TEST(LearnedEffects, StrokesOfUnknownTimeComeLateByTheMean) {
   ExpectNear(Pressures(late), Pressures(delayed), 1e-9);
 }
 
-}  // namespace
+}  // namespace learned_effects_test
 }  // namespace plenum::model

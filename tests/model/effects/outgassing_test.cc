@@ -9,7 +9,7 @@
 #include "model/simulate/simulate.h"
 
 namespace plenum::model {
-namespace {
+namespace outgassing_test {
 
 TEST(Outgassing, FillsAClosedChamberAsTheClosedFormSays) {
   constexpr double kVolumeM3 = 150e-6, kFlowM3PerS = 2e-9, kTimeConstantS = 80.0, kStartPa = 40.0;
@@ -40,5 +40,5 @@ TEST(Outgassing, FillsAClosedChamberAsTheClosedFormSays) {
   }
 }
 
-}  // namespace
+}  // namespace outgassing_test
 }  // namespace plenum::model

@@ -10,7 +10,7 @@
 #include "tests/support/effects/effect_form.h"
 
 namespace plenum::test {
-namespace {
+namespace unlisted_effects_test {
 
 constexpr double kStep = 5e-4;
 
@@ -120,5 +120,5 @@ TEST(UnlistedEffects, LawsAtTheirEnds) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace unlisted_effects_test
 }  // namespace plenum::test

@@ -7,7 +7,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace wall_heat_test {
 
 using enum ValveState;
 
@@ -66,5 +66,5 @@ TEST(WallHeat, BesideHeatTransferIsRefused) {
   EXPECT_NE(r.detail.find("cannot stand beside"), std::string::npos) << r.detail;
 }
 
-}  // namespace
+}  // namespace wall_heat_test
 }  // namespace plenum::model

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace plenum::model {
-namespace {
+namespace dense_gas_test {
 
 double Compressibility(Gas gas, double pressure_pa, double temperature_k) {
   return pressure_pa * DenseGas(gas).Volume(pressure_pa, temperature_k) / temperature_k;
@@ -83,5 +83,5 @@ TEST(DenseGas, WithoutPressureIsNoNumber) {
   EXPECT_TRUE(std::isnan(dense.Temperature(-1e5, 1e-3)));
 }
 
-}  // namespace
+}  // namespace dense_gas_test
 }  // namespace plenum::model

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plenum::model {
-namespace {
+namespace flow_table_test {
 
 class RandomChains {
  public:
@@ -99,5 +99,5 @@ TEST(FlowTable, KeepsItsDigitsNearEqualPressures) {
   }
 }
 
-}  // namespace
+}  // namespace flow_table_test
 }  // namespace plenum::model

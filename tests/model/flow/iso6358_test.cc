@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace plenum::model {
-namespace {
+namespace iso6358_test {
 
 constexpr double kLitrePerMinute = 1e-3 / 60.0;
 
@@ -58,5 +58,5 @@ TEST(Iso6358, SlopeAgreesWithFiniteDifferences) {
   EXPECT_EQ(FlowFunctionSlope(1.0, 0.3), -std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace iso6358_test
 }  // namespace plenum::model

@@ -12,7 +12,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace series_curve_test {
 
 using Uniform = std::uniform_real_distribution<double>;
 
@@ -81,5 +81,5 @@ TEST(SeriesCurve, RunsAreThoseOfFlowsThatAreSolved) {
   for (std::size_t i = 0; i < exact.size(); ++i) EXPECT_NEAR(of_curve[i], exact[i], 0.02) << i;
 }
 
-}  // namespace
+}  // namespace series_curve_test
 }  // namespace plenum::model

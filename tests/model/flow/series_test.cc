@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plenum::model {
-namespace {
+namespace series_test {
 
 using Line = std::vector<FlowElement>;
 
@@ -183,5 +183,5 @@ TEST(Series, BetterElementsNeverLowerTheFlow) {
   }
 }
 
-}  // namespace
+}  // namespace series_test
 }  // namespace plenum::model

@@ -5,7 +5,7 @@
 #include "tests/support/fanno.h"
 
 namespace plenum::model {
-namespace {
+namespace tube_test {
 
 struct Row {
   double bore_mm, length_m;
@@ -51,5 +51,5 @@ TEST(Tube, BoreVolumePerMetre) {
   EXPECT_NEAR(BoreVolume(4e-3, 1.0) * 1e6, 12.6, 0.05);
 }
 
-}  // namespace
+}  // namespace tube_test
 }  // namespace plenum::model

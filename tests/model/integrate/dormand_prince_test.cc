@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plenum::model {
-namespace {
+namespace dormand_prince_test {
 
 const auto kPendulumOfUnitRate = [](double, std::span<const double> y, std::span<double> dydt) {
   dydt[0] = y[1];
@@ -98,5 +98,5 @@ TEST(DormandPrince, ReportsAResultThatIsNotFinite) {
   EXPECT_EQ(stepper.Step(rhs, 1.0, norm), DormandPrince::Outcome::kNotFinite);
 }
 
-}  // namespace
+}  // namespace dormand_prince_test
 }  // namespace plenum::model

@@ -11,7 +11,7 @@
 #include "tests/support/sensitivities.h"
 
 namespace plenum::model {
-namespace {
+namespace rosenbrock_test {
 
 const auto kAcceptAll = [](auto, auto, auto) { return 1e-9; };
 
@@ -242,5 +242,5 @@ TEST(Rosenbrock, WhatAFeedShutsAgainstDoesNotHoldTheStep) {
   EXPECT_LT(r.steps, 1000u);
 }
 
-}  // namespace
+}  // namespace rosenbrock_test
 }  // namespace plenum::model

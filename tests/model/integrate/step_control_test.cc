@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace plenum::model {
-namespace {
+namespace step_control_test {
 
 constexpr StepControl::Law kOrderThree = {.exponent = 1.0 / 3.0, .memory = 0.0, .growth_max = 6.0};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -56,5 +56,5 @@ TEST(StepControl, AnErrorThatNoStepRemovesIsToldOrRefused) {
   EXPECT_EQ(control.Take(1.0, 1.0, [](double) { return kInfinity; }), StepResult::kNotFinite);
 }
 
-}  // namespace
+}  // namespace step_control_test
 }  // namespace plenum::model

@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace plenum::model {
-namespace {
+namespace actuator_shapes_test {
 
 constexpr double kPi = std::numbers::pi;
 double Radians(double degrees) { return degrees * kPi / 180.0; }
@@ -85,5 +85,5 @@ TEST(ActuatorShapes, BodyIsItsTube) {
   EXPECT_NEAR(BodyVolumes(0.1, 2.0).operating_m3, 0.0157079632679, 1e-12);
 }
 
-}  // namespace
+}  // namespace actuator_shapes_test
 }  // namespace plenum::model

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace plenum::model {
-namespace {
+namespace air_test {
 
 // Choked mass flux of an ideal nozzle per stagnation pressure, times R: the standard volume flow
 // up to a factor common to all gases.
@@ -58,5 +58,5 @@ TEST(Air, CompressibilityFollowsTheTable) {
   EXPECT_EQ(CompressibilityOfAir(400e5), 1.109);
 }
 
-}  // namespace
+}  // namespace air_test
 }  // namespace plenum::model

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plenum::model {
-namespace {
+namespace chamber_test {
 
 Chamber ExosuitChamber() {
   Chamber chamber;
@@ -106,5 +106,5 @@ TEST(Chamber, SaysWhyItIsInvalid) {
   EXPECT_TRUE(contains(table({1e5, 2e5}, {0.0, 1e-5}), "volume"));
 }
 
-}  // namespace
+}  // namespace chamber_test
 }  // namespace plenum::model

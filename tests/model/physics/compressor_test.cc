@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plenum::model {
-namespace {
+namespace compressor_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPsi = 6894.757293168;                    // Pa
@@ -155,5 +155,5 @@ TEST(Compressor, EnergyToFillIsInfiniteWhereTheTableEndsInNoFlow) {
   EXPECT_LT(EnergyToFill(pump, 1e-3, 1e5, 2.9e5, 293.15), kInfinity);
 }
 
-}  // namespace
+}  // namespace compressor_test
 }  // namespace plenum::model

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plenum::model {
-namespace {
+namespace monotone_curve_test {
 
 TEST(MonotoneCurve, OnePointIsConstantTwoAreALine) {
   const MonotoneCurve constant({2.0}, {5.0});
@@ -73,5 +73,5 @@ TEST(MonotoneCurve, SlopeAgreesWithFiniteDifferences) {
   }
 }
 
-}  // namespace
+}  // namespace monotone_curve_test
 }  // namespace plenum::model

@@ -10,7 +10,7 @@
 #include "tests/model/effects/effects_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace pump_demand_test {
 
 constexpr double kStopPa = 3.6e5;
 constexpr double kDelivery = 1.5e-4;  // m³/s ANR at the stop pressure
@@ -87,5 +87,5 @@ TEST(PumpDemand, AVolumeBeforeTheLineTakesThePumpFromTheStopPressure) {
   ExpectBalance(response, 0.4e-3);
 }
 
-}  // namespace
+}  // namespace pump_demand_test
 }  // namespace plenum::model

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace plenum::model {
-namespace {
+namespace storage_test {
 
 constexpr double kRoomK = 293.15;
 constexpr double kLitre = 1e-3;
@@ -139,5 +139,5 @@ TEST(Storage, AColdBottleGivesWhatCoolsItByTwentyKelvin) {
   EXPECT_GT(Co2Draw(3e-6, 0.04, 0.012, 140.0) * 140.0, 1.5e-3);
 }
 
-}  // namespace
+}  // namespace storage_test
 }  // namespace plenum::model

@@ -14,7 +14,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace integrators_test {
 
 class RandomRigs {
  public:
@@ -312,5 +312,5 @@ TEST(IntegratorStatus, SaysWhereAndWhy) {
   }
 }
 
-}  // namespace
+}  // namespace integrators_test
 }  // namespace plenum::model

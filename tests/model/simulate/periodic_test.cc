@@ -15,7 +15,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace periodic_test {
 
 using enum ValveState;
 
@@ -370,5 +370,5 @@ TEST(Periodic, SaysWhyNot) {
   EXPECT_EQ(FindPeriodicState(rig, 2.0, few).status, PeriodicStatus::kFailed);
 }
 
-}  // namespace
+}  // namespace periodic_test
 }  // namespace plenum::model

@@ -16,7 +16,7 @@
 #include "tests/support/sensitivities.h"
 
 namespace plenum::model {
-namespace {
+namespace sensitivity_cvodes_test {
 
 // Fill, hold, deflate to where the line is straight.
 const std::vector<ValveCommand> kSchedule = {
@@ -173,5 +173,5 @@ TEST_P(SensitivityCvodes, PressuresAndTheTimeToOperating) {
 INSTANTIATE_TEST_SUITE_P(Rigs, SensitivityCvodes, testing::ValuesIn(Cases()),
                          [](const auto& from) { return std::string(from.param.name); });
 
-}  // namespace
+}  // namespace sensitivity_cvodes_test
 }  // namespace plenum::model

@@ -14,7 +14,7 @@
 #include "tests/support/sensitivities.h"
 
 namespace plenum::model {
-namespace {
+namespace sensitivity_test {
 
 constexpr FlowElement kValve = {.sonic_conductance_m3_per_s_pa = 0.1e-8, .critical_ratio = 0.3};
 constexpr FlowElement kTube = {.sonic_conductance_m3_per_s_pa = 0.06e-8, .critical_ratio = 0.15};
@@ -537,5 +537,5 @@ TEST(Sensitivity, OfWhatIsNothingButRoundingAsksForNoShorterSteps) {
   }
 }
 
-}  // namespace
+}  // namespace sensitivity_test
 }  // namespace plenum::model

@@ -8,7 +8,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_dense_test {
 
 constexpr double kVolumeM3 = 1e-3, kConductance = 2e-9, kTemperatureK = 293.15;
 constexpr double kPerContent = kReferenceTemperatureK / kReferencePressurePa;
@@ -122,5 +122,5 @@ TEST(SimulateDense, GasOfLittlePressureIsIdeal) {
   EXPECT_NEAR(dense.groups[0].final_pressure_pa, ideal.groups[0].final_pressure_pa, 200.0);
 }
 
-}  // namespace
+}  // namespace simulate_dense_test
 }  // namespace plenum::model

@@ -10,7 +10,7 @@
 #include "tests/support/mass_form.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_mass_form_test {
 
 enum class Kind { kRegulated, kRegulator, kFlowMax, kReservoir, kCompressor };
 
@@ -185,5 +185,5 @@ INSTANTIATE_TEST_SUITE_P(Sources, AgainstMassForm,
                          ::testing::Values(Kind::kRegulated, Kind::kRegulator, Kind::kFlowMax,
                                            Kind::kReservoir, Kind::kCompressor));
 
-}  // namespace
+}  // namespace simulate_mass_form_test
 }  // namespace plenum::model

@@ -10,7 +10,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_measured_test {
 
 using enum ValveState;
 
@@ -217,5 +217,5 @@ TEST(SimulateChannels, InletOfAHalfOpenExhaust) {
   }
 }
 
-}  // namespace
+}  // namespace simulate_measured_test
 }  // namespace plenum::model

@@ -11,7 +11,7 @@
 #include "tests/support/pumps/pump_filling.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_pump_test {
 
 using enum ValveState;
 
@@ -161,5 +161,5 @@ TEST(SimulatePumps, RefuseWhatTheyCannotRun) {
   EXPECT_EQ(Simulate(RigOf(Pumps(0), {Actuator()}), Sharp(1.0)).status, SimulateStatus::kInvalid);
 }
 
-}  // namespace
+}  // namespace simulate_pump_test
 }  // namespace plenum::model

@@ -8,7 +8,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_source_test {
 
 using enum ValveState;
 
@@ -180,5 +180,5 @@ TEST(SimulateSource, VolumeWhileRisingCountsOnlyWhileRising) {
   EXPECT_NEAR(Simulate(RigOf(source, {group}), Until(100.0)).compressor_on_s, 15.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace simulate_source_test
 }  // namespace plenum::model

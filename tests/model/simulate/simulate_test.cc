@@ -9,7 +9,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_test {
 
 using enum ValveState;
 
@@ -254,5 +254,5 @@ TEST(Simulate, RecordsPressuresAlone) {
   EXPECT_TRUE(pressures.groups[0].flow_m3_per_s.empty());
 }
 
-}  // namespace
+}  // namespace simulate_test
 }  // namespace plenum::model

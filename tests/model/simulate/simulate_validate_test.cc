@@ -7,7 +7,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace simulate_validate_test {
 
 using enum ValveState;
 
@@ -48,5 +48,5 @@ TEST(SimulateValidate, RefusesWhatItCannotRun) {
               HasSubstr("linear_ratio"));
 }
 
-}  // namespace
+}  // namespace simulate_validate_test
 }  // namespace plenum::model

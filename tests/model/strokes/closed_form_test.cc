@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace plenum::model {
-namespace {
+namespace closed_form_test {
 
 struct Row {
   double source, operating, expansion, b, rise, fall;
@@ -75,5 +75,5 @@ TEST(ClosedForm, StrokesAddUpAcrossTheChokingPoint) {
               NormalisedFallTime(stroke, 5.0, 1.0), 1e-13);
 }
 
-}  // namespace
+}  // namespace closed_form_test
 }  // namespace plenum::model

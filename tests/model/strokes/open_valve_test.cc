@@ -9,7 +9,7 @@
 #include "model/strokes/reservoir_stroke.h"
 
 namespace plenum::model {
-namespace {
+namespace open_valve_test {
 
 constexpr double kAmbientPa = 1e5;
 
@@ -113,5 +113,5 @@ TEST(OpenValve, FillsAsTheSimulatorDoesUntilItsTimeIsUp) {
   EXPECT_GT(closed, 100);
 }
 
-}  // namespace
+}  // namespace open_valve_test
 }  // namespace plenum::model

@@ -12,7 +12,7 @@
 #include "tests/support/random.h"
 
 namespace plenum::model {
-namespace {
+namespace pump_stroke_test {
 
 constexpr double kAmbientPa = 1e5;
 
@@ -192,5 +192,5 @@ TEST(PumpStroke, IsNotReachedWhereThePumpEnds) {
   EXPECT_FALSE(FillFromPumps(direct.Input()).reached);
 }
 
-}  // namespace
+}  // namespace pump_stroke_test
 }  // namespace plenum::model

@@ -8,7 +8,7 @@
 #include "model/physics/air.h"
 
 namespace plenum::model {
-namespace {
+namespace refill_test {
 
 constexpr double kLow = 1e5, kHigh = 8e5;
 
@@ -157,5 +157,5 @@ TEST(Refill, ALighterMissionNeverTakesMore) {
   }
 }
 
-}  // namespace
+}  // namespace refill_test
 }  // namespace plenum::model

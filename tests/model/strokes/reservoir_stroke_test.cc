@@ -12,7 +12,7 @@
 #include "tests/support/mass_form.h"
 
 namespace plenum::model {
-namespace {
+namespace reservoir_stroke_test {
 
 constexpr double kAmbientPa = 1e5;
 
@@ -393,5 +393,5 @@ TEST(PumpUpTime, EndsAtTheHighestPressure) {
   EXPECT_TRUE(std::isinf(PumpUpTime(ends_at_zero, 1, 1e-3, 1e5, 4e5, 293.15)));
 }
 
-}  // namespace
+}  // namespace reservoir_stroke_test
 }  // namespace plenum::model

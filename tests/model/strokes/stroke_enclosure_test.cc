@@ -9,7 +9,7 @@
 #include "model/strokes/stroke.h"
 
 namespace plenum::model {
-namespace {
+namespace stroke_enclosure_test {
 
 class Draw {
  public:
@@ -151,5 +151,5 @@ TEST(StrokeEnclosure, KnowsNothingOfOtherCurvesAndTables) {
   EXPECT_FALSE(known());
 }
 
-}  // namespace
+}  // namespace stroke_enclosure_test
 }  // namespace plenum::model

@@ -10,7 +10,7 @@
 #include "model/strokes/closed_form.h"
 
 namespace plenum::model {
-namespace {
+namespace stroke_test {
 
 using Line = std::vector<FlowElement>;
 
@@ -205,5 +205,5 @@ TEST(Stroke, OtherSubsonicIndexAgreesWithMidpointRule) {
   EXPECT_EQ(FillTime(linear, TestChamber(), 2e5, 1e5, 2e5), kNever);
 }
 
-}  // namespace
+}  // namespace stroke_test
 }  // namespace plenum::model

@@ -17,7 +17,7 @@
 #include "tests/support/random.h"
 
 namespace plenum::model {
-namespace {
+namespace vacuum_test {
 
 constexpr double kAmbientPa = 1e5;
 double Image(double pressure_pa) { return 2.0 * kAmbientPa - pressure_pa; }
@@ -322,5 +322,5 @@ TEST(Vacuum, AnEvacuatedChamberIsValidWithinItsRange) {
   EXPECT_NE(WhyInvalid(Evacuated(1e-4, 0.5, -1.1e5)), "");
 }
 
-}  // namespace
+}  // namespace vacuum_test
 }  // namespace plenum::model

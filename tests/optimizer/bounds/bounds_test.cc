@@ -15,7 +15,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace bounds_test {
 
 using optimizer::Bounds;
 using optimizer::Box;
@@ -448,5 +448,5 @@ TEST(BoundsTest, CompressorOneGroup) {
   EXPECT_GT(checked, 100);
 }
 
-}  // namespace
+}  // namespace bounds_test
 }  // namespace plenum::test

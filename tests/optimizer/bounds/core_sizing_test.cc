@@ -9,7 +9,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace core_sizing_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -71,5 +71,5 @@ TEST(CoreSizingTest, ALeafOfItsCoreIsTheLeafSizedByItself) {
   EXPECT_GT(served, 0);
 }
 
-}  // namespace
+}  // namespace core_sizing_test
 }  // namespace plenum::test

@@ -8,7 +8,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace node_need_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -84,5 +84,5 @@ TEST(NodeNeedTest, KeepsItsOrder) {
             before.rise_pa);
 }
 
-}  // namespace
+}  // namespace node_need_test
 }  // namespace plenum::test

@@ -10,7 +10,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace dominance_test {
 
 using optimizer::Contender;
 using optimizer::KeepBest;
@@ -74,5 +74,5 @@ TEST(DominanceTest, LeavesOutWhatKOthersDominate) {
     }
 }
 
-}  // namespace
+}  // namespace dominance_test
 }  // namespace plenum::test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace plenum::test {
-namespace {
+namespace known_lines_test {
 
 using optimizer::Constraint;
 using optimizer::KnownLines;
@@ -64,5 +64,5 @@ TEST(KnownLinesTest, ABoxMissesSomethingOrMayHaveItsLine) {
   EXPECT_EQ(Known(), Known::Missing(Constraint::kNone));
 }
 
-}  // namespace
+}  // namespace known_lines_test
 }  // namespace plenum::test

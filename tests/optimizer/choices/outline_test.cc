@@ -8,7 +8,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace outline_test {
 
 using optimizer::Configuration;
 using optimizer::Problem;
@@ -50,5 +50,5 @@ TEST(OutlineTest, CountsAreThoseOfThePlan) {
     }
 }
 
-}  // namespace
+}  // namespace outline_test
 }  // namespace plenum::test

@@ -13,7 +13,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace closing_test {
 
 using model::FlowElement;
 using optimizer::Closing;
@@ -115,5 +115,5 @@ TEST(Closing, IsNoHigherOfAValveThatLetsByNoMore) {
   EXPECT_GT(compared, 200);
 }
 
-}  // namespace
+}  // namespace closing_test
 }  // namespace plenum::test

@@ -11,7 +11,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace gait_strokes_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -172,5 +172,5 @@ TEST(GaitStrokesTest, OutOfAReservoirAsSimulatedPlainly) {
   EXPECT_GT(Compared(Configuration::kCompressor, 14), 8);
 }
 
-}  // namespace
+}  // namespace gait_strokes_test
 }  // namespace plenum::test

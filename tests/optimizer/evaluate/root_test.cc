@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace plenum::optimizer {
-namespace {
+namespace root_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -88,5 +88,5 @@ TEST(SmallestFeasibleTest, LowEndThatIsFeasibleComesBackAtOnce) {
   EXPECT_EQ(calls, 1);
 }
 
-}  // namespace
+}  // namespace root_test
 }  // namespace plenum::optimizer

@@ -11,7 +11,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace shared_filling_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -160,5 +160,5 @@ TEST(SharedFillingTest, AlikeOnAReservoir) {
   EXPECT_GT(compared, 3);
 }
 
-}  // namespace
+}  // namespace shared_filling_test
 }  // namespace plenum::test

@@ -12,7 +12,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace tank_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -233,5 +233,5 @@ TEST(Tank, WithoutARegulatorAskForValvesThatHoldAndPartsThatStandTheFill) {
   EXPECT_EQ(optimizer::SearchTrees(problem, Within(10.0)).status, optimizer::Status::kInfeasible);
 }
 
-}  // namespace
+}  // namespace tank_test
 }  // namespace plenum::test

@@ -13,7 +13,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace conflict_test {
 
 using optimizer::Configuration;
 using optimizer::Conflict;
@@ -264,5 +264,5 @@ TEST(ConflictTest, PressureThatNoPartStandsNamesTheOperatingPressure) {
   EXPECT_FALSE(conflict[0].best.has_value());
 }
 
-}  // namespace
+}  // namespace conflict_test
 }  // namespace plenum::test

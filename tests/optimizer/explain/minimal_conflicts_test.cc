@@ -8,7 +8,7 @@
 #include <random>
 
 namespace plenum::test {
-namespace {
+namespace minimal_conflicts_test {
 
 using optimizer::DemandSet;
 using optimizer::DropOracle;
@@ -116,5 +116,5 @@ TEST(MinimalConflicts, OutOfTimeClaimsNothing) {
   EXPECT_TRUE(FindSmallestDrops(kCount, {found}, 10, oracle).empty());
 }
 
-}  // namespace
+}  // namespace minimal_conflicts_test
 }  // namespace plenum::test

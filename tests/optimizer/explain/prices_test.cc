@@ -13,7 +13,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace prices_test {
 
 using optimizer::Configuration;
 using optimizer::Design;
@@ -182,5 +182,5 @@ TEST(FlipsTest, AreThoseOfEnumeration) {
   EXPECT_GT(requirements, 0u);
 }
 
-}  // namespace
+}  // namespace prices_test
 }  // namespace plenum::test

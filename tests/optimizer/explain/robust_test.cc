@@ -14,7 +14,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace robust_test {
 
 using optimizer::Configuration;
 using optimizer::Design;
@@ -215,5 +215,5 @@ TEST(RobustTest, SaysThatItWasCancelledBeforeTheListWasWhole) {
   EXPECT_FALSE(result.answer.proof.complete);
 }
 
-}  // namespace
+}  // namespace robust_test
 }  // namespace plenum::test

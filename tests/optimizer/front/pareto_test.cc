@@ -13,7 +13,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace pareto_test {
 
 using optimizer::Amount;
 using optimizer::Configuration;
@@ -349,5 +349,5 @@ TEST(ParetoTest, WhatIsNotSearchedIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace pareto_test
 }  // namespace plenum::test

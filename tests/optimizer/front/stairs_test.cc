@@ -6,7 +6,7 @@
 #include <random>
 
 namespace plenum::test {
-namespace {
+namespace stairs_test {
 
 using optimizer::kUnlimited;
 using optimizer::Pair;
@@ -71,5 +71,5 @@ TEST(StairsTest, AdmitsWhatMayHoldADesign) {
   EXPECT_LT(admitted, kDraws * 9 / 10);
 }
 
-}  // namespace
+}  // namespace stairs_test
 }  // namespace plenum::test

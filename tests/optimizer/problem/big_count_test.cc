@@ -8,7 +8,7 @@
 #include <random>
 
 namespace plenum::optimizer {
-namespace {
+namespace big_count_test {
 
 using Reference = boost::multiprecision::cpp_int;
 
@@ -65,5 +65,5 @@ TEST(BigCount, ReadsDigitsAndNothingElse) {
   EXPECT_EQ(BigCount::FromDecimal(digits)->ToDouble(), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace big_count_test
 }  // namespace plenum::optimizer

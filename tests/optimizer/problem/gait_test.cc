@@ -8,7 +8,7 @@
 #include "verify/design/cycle/verify_gait.h"
 
 namespace plenum::test {
-namespace {
+namespace gait_test {
 
 using optimizer::Meeting;
 using optimizer::MeetingOf;
@@ -125,5 +125,5 @@ TEST(GaitTest, ShiftingAllPhasesChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace gait_test
 }  // namespace plenum::test

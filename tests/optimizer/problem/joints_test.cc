@@ -11,7 +11,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::optimizer {
-namespace {
+namespace joints_test {
 
 model::Manifold Row(const std::string& id, int stations, double mass_kg, double dm3_per_s_bar,
                     double max_pa = 1.1e6) {
@@ -148,5 +148,5 @@ TEST(Joints, SlowAJustFastEnoughLineByAFewPercentAtMost) {
   EXPECT_LT(worst, 0.05);
 }
 
-}  // namespace
+}  // namespace joints_test
 }  // namespace plenum::optimizer

@@ -12,7 +12,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace proof_test {
 
 using optimizer::Answer;
 using optimizer::BoxKind;
@@ -179,5 +179,5 @@ TEST(ProofTest, NoRecordUnlessAskedFor) {
   EXPECT_EQ(optimizer::SearchTrees(problem, Within(100.0)).proof.record, nullptr);
 }
 
-}  // namespace
+}  // namespace proof_test
 }  // namespace plenum::test

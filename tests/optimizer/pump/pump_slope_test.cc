@@ -6,7 +6,7 @@
 #include "tests/support/random_parts.h"
 
 namespace plenum::test {
-namespace {
+namespace pump_slope_test {
 
 // The least slope of current over delivery on a fine grid, of what it is in the mean.
 double LeastSlope(const model::CompressorCurve& curve, double low_pa, double high_pa) {
@@ -66,5 +66,5 @@ TEST(PumpSlopeTest, AsManyLooksSayOfDrawnPumps) {
   EXPECT_GT(falling, 5);
 }
 
-}  // namespace
+}  // namespace pump_slope_test
 }  // namespace plenum::test

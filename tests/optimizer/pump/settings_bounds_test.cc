@@ -11,7 +11,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace settings_bounds_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -155,5 +155,5 @@ TEST(RaisePressureTest, KeepsEveryPressureThatDrives) {
   EXPECT_GT(checked, 50);
 }
 
-}  // namespace
+}  // namespace settings_bounds_test
 }  // namespace plenum::test

@@ -13,7 +13,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace stroke_bound_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -154,5 +154,5 @@ TEST(StrokeBoundTest, GroupsThatTakeTurnsFindNoLessThanTheyNeed) {
   EXPECT_GT(refuted, compared / 2);
 }
 
-}  // namespace
+}  // namespace stroke_bound_test
 }  // namespace plenum::test

@@ -15,7 +15,7 @@
 #include "verify/verify.h"
 
 namespace plenum::test {
-namespace {
+namespace brute_force_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -327,5 +327,5 @@ TEST(BruteForceTest, TwoGroups) {
   EXPECT_LE(20 * tally.undecided, tally.evaluated);
 }
 
-}  // namespace
+}  // namespace brute_force_test
 }  // namespace plenum::test

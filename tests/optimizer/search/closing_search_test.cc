@@ -9,7 +9,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace closing_search_test {
 
 using optimizer::Configuration;
 using optimizer::Design;
@@ -126,5 +126,5 @@ TEST(ClosingSearch, QuickerIsNeverWorse) {
   EXPECT_GT(better, 3);
 }
 
-}  // namespace
+}  // namespace closing_search_test
 }  // namespace plenum::test

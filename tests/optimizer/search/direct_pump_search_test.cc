@@ -11,7 +11,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace direct_pump_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -285,5 +285,5 @@ TEST(DirectPumpSearch, AConflictNamesWhatIsTooTight) {
   EXPECT_GE(named, 1);
 }
 
-}  // namespace
+}  // namespace direct_pump_search_test
 }  // namespace plenum::test

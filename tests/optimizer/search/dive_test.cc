@@ -8,7 +8,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace dive_test {
 
 using optimizer::Configuration;
 using optimizer::DiveSteps;
@@ -88,5 +88,5 @@ TEST(DiveTest, NoDesignIsSizedAnyFurtherThanItMayImproveTheList) {
   EXPECT_GT(cut, 3);
 }
 
-}  // namespace
+}  // namespace dive_test
 }  // namespace plenum::test

@@ -6,7 +6,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace gait_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -113,5 +113,5 @@ TEST(GaitSearchTest, Relations) {
   EXPECT_GT(compared, 6);
 }
 
-}  // namespace
+}  // namespace gait_search_test
 }  // namespace plenum::test

@@ -11,7 +11,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace groups_test {
 
 using optimizer::ActuatorGroup;
 using optimizer::Answer;
@@ -126,5 +126,5 @@ TEST(GroupsTest, Relations) {
   EXPECT_GT(designs, 3);
 }
 
-}  // namespace
+}  // namespace groups_test
 }  // namespace plenum::test

@@ -14,7 +14,7 @@
 #include "verify/verify.h"
 
 namespace plenum::test {
-namespace {
+namespace kinds_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -305,5 +305,5 @@ TEST(KindsTest, VerifyRefusesWhatIsNoListOfKinds) {
   EXPECT_FALSE(accepted(one_series, answer));
 }
 
-}  // namespace
+}  // namespace kinds_test
 }  // namespace plenum::test

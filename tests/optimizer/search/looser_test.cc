@@ -9,7 +9,7 @@
 #include "verify/verify.h"
 
 namespace plenum::test {
-namespace {
+namespace looser_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -88,5 +88,5 @@ TEST(Looser, AStrokeThatJustEndsInHalfOfThePeriodIsDecided) {
   EXPECT_GT(listed, 10);
 }
 
-}  // namespace
+}  // namespace looser_test
 }  // namespace plenum::test

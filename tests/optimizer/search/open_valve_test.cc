@@ -12,7 +12,7 @@
 #include "verify/verify.h"
 
 namespace plenum::test {
-namespace {
+namespace open_valve_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -92,5 +92,5 @@ TEST(OpenValve, DutyAndAirAreThoseOfThePeriodicState) {
   EXPECT_GT(short_of_full, 20);
 }
 
-}  // namespace
+}  // namespace open_valve_test
 }  // namespace plenum::test

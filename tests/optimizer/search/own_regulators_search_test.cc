@@ -10,7 +10,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace own_regulators_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -189,5 +189,5 @@ TEST(OwnRegulators, TamperedPressuresAreRefused) {
   EXPECT_GT(refused, 3);
 }
 
-}  // namespace
+}  // namespace own_regulators_search_test
 }  // namespace plenum::test

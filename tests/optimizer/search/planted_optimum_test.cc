@@ -8,7 +8,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace planted_optimum_test {
 
 using optimizer::Configuration;
 using optimizer::Problem;
@@ -75,5 +75,5 @@ TEST(PlantedOptimumTest, IsRankedFirst) {
   }
 }
 
-}  // namespace
+}  // namespace planted_optimum_test
 }  // namespace plenum::test

@@ -10,7 +10,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace refilled_tank_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -157,5 +157,5 @@ TEST(RefilledTankSearch, TheVerifierRefusesWhatIsTamperedWith) {
   EXPECT_GE(looked_at, 2);
 }
 
-}  // namespace
+}  // namespace refilled_tank_search_test
 }  // namespace plenum::test

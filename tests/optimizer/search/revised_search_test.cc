@@ -10,7 +10,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace revised_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -129,5 +129,5 @@ TEST(Relaxation, IsNoHarderThanTheProblem) {
   EXPECT_TRUE(Relaxed(problem).groups[0].effects.empty());
 }
 
-}  // namespace
+}  // namespace revised_search_test
 }  // namespace plenum::test

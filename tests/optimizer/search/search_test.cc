@@ -9,7 +9,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -113,5 +113,5 @@ TEST(SearchTest, OrderOfTheCatalogueDoesNotMatter) {
   }
 }
 
-}  // namespace
+}  // namespace search_test
 }  // namespace plenum::test

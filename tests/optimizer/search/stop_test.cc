@@ -10,7 +10,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace stop_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -164,5 +164,5 @@ TEST(StopTest, TimeLimitReachesALeaf) {
   EXPECT_LE(answer.proof.lower_bound, truth.designs[0].objective);
 }
 
-}  // namespace
+}  // namespace stop_test
 }  // namespace plenum::test

@@ -12,7 +12,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace tank_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -234,5 +234,5 @@ TEST(TankSearch, AConflictNamesTheFill) {
   EXPECT_GE(named, 1);
 }
 
-}  // namespace
+}  // namespace tank_search_test
 }  // namespace plenum::test

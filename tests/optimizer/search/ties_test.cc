@@ -11,7 +11,7 @@
 #include "verify/verify.h"
 
 namespace plenum::test {
-namespace {
+namespace ties_test {
 
 using optimizer::Configuration;
 using optimizer::Objective;
@@ -113,5 +113,5 @@ TEST(Ties, ThePriceAndTheMassOfAnObjectiveTellNothingApart) {
             (optimizer::TieShare{123'000'000, 56'700'000}));
 }
 
-}  // namespace
+}  // namespace ties_test
 }  // namespace plenum::test

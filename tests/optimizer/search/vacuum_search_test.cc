@@ -10,7 +10,7 @@
 #include "tests/support/pumps/vacuum_problems.h"
 
 namespace plenum::test {
-namespace {
+namespace vacuum_search_test {
 
 using optimizer::Answer;
 using optimizer::Configuration;
@@ -165,5 +165,5 @@ TEST(VacuumSearch, AConflictNamesWhatIsTooTight) {
   EXPECT_GE(named, 1);
 }
 
-}  // namespace
+}  // namespace vacuum_search_test
 }  // namespace plenum::test

@@ -11,7 +11,7 @@
 #include "model/flow/scalar.h"
 
 namespace plenum::optimizer {
-namespace {
+namespace nlp_test {
 
 struct Sample {
   std::string name;
@@ -199,5 +199,5 @@ TEST(NlpTest, NeverDefinedFails) {
   EXPECT_NE(SolveWithNlopt(nlp).status, NlpStatus::kSolved);
 }
 
-}  // namespace
+}  // namespace nlp_test
 }  // namespace plenum::optimizer

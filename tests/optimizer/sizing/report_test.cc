@@ -8,7 +8,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace report_test {
 
 using optimizer::Choice;
 using optimizer::Configuration;
@@ -128,5 +128,5 @@ TEST(ReportTest, StaggeredGroupsOnACompressorBothRise) {
   }
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace plenum::test

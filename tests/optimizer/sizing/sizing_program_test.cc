@@ -14,7 +14,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace sizing_program_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -210,5 +210,5 @@ TEST(SizingProgramTest, IpoptAndNloptAgreeAndClaimNoMoreThanTheBound) {
   EXPECT_LE(4 * neither, both);
 }
 
-}  // namespace
+}  // namespace sizing_program_test
 }  // namespace plenum::test

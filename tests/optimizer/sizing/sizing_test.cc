@@ -12,7 +12,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace sizing_test {
 
 using optimizer::Candidate;
 using optimizer::Configuration;
@@ -363,5 +363,5 @@ TEST(StaggeredTest, EveryGroupTakesItsAir) {
   }
 }
 
-}  // namespace
+}  // namespace sizing_test
 }  // namespace plenum::test

@@ -14,7 +14,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace protection_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -392,5 +392,5 @@ TEST(Log, HasALineForEachRequestAndNoSecrets) {
   EXPECT_EQ(lines.find("secret"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace protection_test
 }  // namespace plenum::server

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace plenum::server {
-namespace {
+namespace service_limits_test {
 
 TEST(Gate, LetsInInTheOrderOfTickets) {
   int left = 0;
@@ -45,5 +45,5 @@ TEST(ByteBudget, CountsTextsUntilTheirLastCopyGoes) {
   EXPECT_EQ(budget.held(), 10u);
 }
 
-}  // namespace
+}  // namespace service_limits_test
 }  // namespace plenum::server

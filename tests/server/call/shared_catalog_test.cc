@@ -12,7 +12,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace shared_catalog_test {
 
 using std::chrono::seconds;
 
@@ -216,5 +216,5 @@ TEST(SharedCatalog, PastRevisionsStayInMemory) {
   EXPECT_FALSE(catalog.ViewAt(first.number + 9));
 }
 
-}  // namespace
+}  // namespace shared_catalog_test
 }  // namespace plenum::server

@@ -11,7 +11,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace catalog_command_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -233,5 +233,5 @@ TEST(CatalogCommand, ImportsAForeignTableOnceItsQuestionsAreAnswered) {
               HasSubstr("HEADING=COLUMN"));
 }
 
-}  // namespace
+}  // namespace catalog_command_test
 }  // namespace plenum::server

@@ -8,7 +8,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace command_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -323,5 +323,5 @@ TEST(Command, ServeEndsCleanlyOnSignals) {
   }
 }
 
-}  // namespace
+}  // namespace command_test
 }  // namespace plenum::server

@@ -7,7 +7,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace find_catalog_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -117,5 +117,5 @@ TEST_F(Installed, WithoutASeedWhatIsMissingIsNamed) {
   EXPECT_THAT(refused.err, HasSubstr("catalog.db: no such catalogue"));
 }
 
-}  // namespace
+}  // namespace find_catalog_test
 }  // namespace plenum::server

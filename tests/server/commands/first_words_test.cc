@@ -9,7 +9,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace first_words_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -130,5 +130,5 @@ TEST(FirstWords, BashCompletesCommandsOptionsAndTheirWords) {
   EXPECT_EQ(Completed(bench, "plenum design ''"), "\n");  // names of files follow
 }
 
-}  // namespace
+}  // namespace first_words_test
 }  // namespace plenum::server

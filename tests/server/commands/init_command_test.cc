@@ -11,7 +11,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace init_command_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -113,5 +113,5 @@ TEST(Init, AFurtherGroupHasANameOfItsOwn) {
   EXPECT_NE(document["actuators"][0]["name"], document["actuators"][1]["name"]);
 }
 
-}  // namespace
+}  // namespace init_command_test
 }  // namespace plenum::server

@@ -8,7 +8,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace protocol_command_test {
 
 using testing::HasSubstr;
 
@@ -59,5 +59,5 @@ TEST(ProtocolCommand, ARecordingIsWrittenOnceIntoItsPart) {
   EXPECT_THAT(other.err, HasSubstr("--save-part"));
 }
 
-}  // namespace
+}  // namespace protocol_command_test
 }  // namespace plenum::server

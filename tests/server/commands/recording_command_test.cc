@@ -8,7 +8,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace recording_command_test {
 
 using testing::HasSubstr;
 
@@ -64,5 +64,5 @@ TEST_F(RecordingCommand, CurvesTakeTheAnswersThatTheDiagnosisTook) {
   EXPECT_EQ(api::Json::parse(curves.out)["runs"][0]["t_s"].size(), 12u);
 }
 
-}  // namespace
+}  // namespace recording_command_test
 }  // namespace plenum::server

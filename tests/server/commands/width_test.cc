@@ -10,7 +10,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace width_test {
 
 constexpr char kRule[] = "─";
 
@@ -132,5 +132,5 @@ TEST_P(TablesOfCommands, OfTheCatalogue) {
 
 INSTANTIATE_TEST_SUITE_P(Widths, TablesOfCommands, testing::Values(80, 100, 140));
 
-}  // namespace
+}  // namespace width_test
 }  // namespace plenum::server

@@ -12,7 +12,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace fairness_test {
 
 using namespace std::chrono_literals;
 using catalog::JobOrder;
@@ -219,5 +219,5 @@ TEST(Jobs, AreReadableByTheirOwnerOnly) {
         << name;
 }
 
-}  // namespace
+}  // namespace fairness_test
 }  // namespace plenum::server

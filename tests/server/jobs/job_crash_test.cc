@@ -18,7 +18,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace job_crash_test {
 
 using namespace std::chrono_literals;
 using catalog::JobOrder;
@@ -183,5 +183,5 @@ TEST_F(JobCrash, OddMarksMarkNothing) {
   EXPECT_THAT(Describe({1, 11, INT64_MAX}), HasSubstr("at 9999-"));
 }
 
-}  // namespace
+}  // namespace job_crash_test
 }  // namespace plenum::server

@@ -9,7 +9,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace job_memory_test {
 
 TEST(JobMemory, TheLargestSearchEndsAndTheOthersGoOn) {
   std::size_t resident = 1000;
@@ -70,5 +70,5 @@ TEST(JobMemory, ASearchEndsFeasibleAtItsLimit) {
   EXPECT_NE(answer["warnings"].dump().find("memory"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace job_memory_test
 }  // namespace plenum::server

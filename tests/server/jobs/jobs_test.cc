@@ -14,7 +14,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace jobs_test {
 
 using namespace std::chrono_literals;
 using catalog::JobOrder;
@@ -396,5 +396,5 @@ TEST_F(JobsTest, KindsDoNotMix) {
   EXPECT_EQ(diagnoses.Submit(Order("ready", "k")).status, Submitted::kAccepted);
 }
 
-}  // namespace
+}  // namespace jobs_test
 }  // namespace plenum::server

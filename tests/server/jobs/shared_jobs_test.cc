@@ -18,7 +18,7 @@
 #include "tests/support/postgres/postgres_server.h"
 
 namespace plenum::server {
-namespace {
+namespace shared_jobs_test {
 
 using namespace std::chrono_literals;
 using catalog::JobOrder;
@@ -233,5 +233,5 @@ TEST_P(SharedQueue, ManyWorkersDoManyJobsOnceEach) {
 INSTANTIATE_TEST_SUITE_P(Each, SharedQueue, testing::Values("Postgresql"),
                          [](const auto& one) { return std::string(one.param); });
 
-}  // namespace
+}  // namespace shared_jobs_test
 }  // namespace plenum::server

@@ -13,7 +13,7 @@
 #include "tests/support/sample_diagnosis.h"
 
 namespace plenum::server {
-namespace {
+namespace diagnosis_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -124,5 +124,5 @@ TEST(SvgPlot, TicksAreRoundAndInside) {
   EXPECT_TRUE(Ticks(0.0, std::nan(""), 5).empty());
 }
 
-}  // namespace
+}  // namespace diagnosis_test
 }  // namespace plenum::server

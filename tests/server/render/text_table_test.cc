@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plenum::server {
-namespace {
+namespace text_table_test {
 
 using Align = Table::Align;
 
@@ -125,5 +125,5 @@ TEST(TextTable, TakesTheWidthFromTheEnvironment) {
   ASSERT_EQ(unsetenv("COLUMNS"), 0);
 }
 
-}  // namespace
+}  // namespace text_table_test
 }  // namespace plenum::server

@@ -20,7 +20,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace diagnoses_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -275,5 +275,5 @@ TEST(DiagnosesOverARestart, EndAndSaveTheirModel) {
   }
 }
 
-}  // namespace
+}  // namespace diagnoses_test
 }  // namespace plenum::server

@@ -10,7 +10,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace docs_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -113,5 +113,5 @@ TEST(NoDocs, SayHowToGetThem) {
   EXPECT_THAT(named.err, HasSubstr("nowhere has no index.html"));
 }
 
-}  // namespace
+}  // namespace docs_test
 }  // namespace plenum::server

@@ -24,7 +24,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace openapi_test {
 
 using api::Json;
 using Adapter = valijson::adapters::NlohmannJsonAdapter;
@@ -396,5 +396,5 @@ TEST_F(Described, TheDocsLoadNothingFromElsewhere) {
   EXPECT_EQ(page->body.find("://"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace openapi_test
 }  // namespace plenum::server

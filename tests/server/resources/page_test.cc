@@ -13,7 +13,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace page_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -96,5 +96,5 @@ TEST_F(Page, HasNoOtherFiles) {
   }
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace plenum::server

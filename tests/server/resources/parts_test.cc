@@ -15,7 +15,7 @@
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
-namespace {
+namespace parts_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -387,5 +387,5 @@ TEST_F(PartsOverHttp, ARestoreUnderTheRunningServiceIsSeenAtOnce) {
   EXPECT_TRUE(ids.contains("other") && !ids.contains("later"));
 }
 
-}  // namespace
+}  // namespace parts_test
 }  // namespace plenum::server

@@ -5,7 +5,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace results_test {
 
 using api::Json;
 
@@ -68,5 +68,5 @@ TEST_F(ResultsInGzip, OfWhoWaitedAreCompressed) {
   EXPECT_EQ(zipped->get_header_value("Preference-Applied"), "wait=60");
 }
 
-}  // namespace
+}  // namespace results_test
 }  // namespace plenum::server

@@ -8,7 +8,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace revisions_test {
 
 using api::Json;
 
@@ -43,5 +43,5 @@ TEST(Revisions, ALargeWriteIsReadInPages) {
   EXPECT_EQ(client.Get(path + "?limit=0")->status, 422);
 }
 
-}  // namespace
+}  // namespace revisions_test
 }  // namespace plenum::server

@@ -11,7 +11,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::server {
-namespace {
+namespace save_part_test {
 
 using api::Json;
 using testing::HasSubstr;
@@ -73,5 +73,5 @@ TEST_F(SavePart, IsRefusedBeforeTheWorkWhereNothingIsMeasured) {
   EXPECT_THAT(reply->body, HasSubstr("/rig/line/elements/0/part"));
 }
 
-}  // namespace
+}  // namespace save_part_test
 }  // namespace plenum::server

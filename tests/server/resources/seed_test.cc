@@ -9,7 +9,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace seed_test {
 
 using api::Json;
 
@@ -100,5 +100,5 @@ TEST_F(InstalledCatalogue, MayBeMissing) {
   EXPECT_EQ(client_.Post(std::string(kUpdate) + "?dry_run=perhaps", "", kJson)->status, 422);
 }
 
-}  // namespace
+}  // namespace seed_test
 }  // namespace plenum::server

@@ -16,7 +16,7 @@
 #include "tests/server/service.h"
 
 namespace plenum::server {
-namespace {
+namespace answers_test {
 
 using namespace std::chrono_literals;
 using testing::EndsWith;
@@ -190,5 +190,5 @@ TEST(Results, OfAJobThatIsDoneAgainHaveAnotherTag) {
   EXPECT_NE(cancel(), tag);
 }
 
-}  // namespace
+}  // namespace answers_test
 }  // namespace plenum::server

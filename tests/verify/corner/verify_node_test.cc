@@ -14,7 +14,7 @@
 #include "verify/design/verify_families.h"
 
 namespace plenum::test {
-namespace {
+namespace verify_node_test {
 
 struct Case {
   optimizer::Problem problem;
@@ -130,5 +130,5 @@ TEST(VerifyNodeTest, NothingThatIsInTimeIsTooSlow) {
   EXPECT_GT(told, in_time / 2) << "of those that take a third longer than they may";
 }
 
-}  // namespace
+}  // namespace verify_node_test
 }  // namespace plenum::test

@@ -12,7 +12,7 @@
 #include "verify/design/verify_families.h"
 
 namespace plenum::test {
-namespace {
+namespace verify_pumped_stroke_test {
 
 using optimizer::Family;
 
@@ -222,5 +222,5 @@ TEST(VerifyPumpedStrokeTest, ASourceIsNoLowerThanWhatTheValveSwitchesWith) {
   EXPECT_NEAR(line.source_low_pa, asked_pa, 1e-3 * asked_pa);
 }
 
-}  // namespace
+}  // namespace verify_pumped_stroke_test
 }  // namespace plenum::test

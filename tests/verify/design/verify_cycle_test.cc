@@ -10,7 +10,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace verify_cycle_test {
 
 using optimizer::Problem;
 using verify::Cycle;
@@ -90,5 +90,5 @@ TEST(VerifyCycleTest, NoStrokeIsFasterBesideOthersThanAlone) {
   EXPECT_GT(close, compared / 3);
 }
 
-}  // namespace
+}  // namespace verify_cycle_test
 }  // namespace plenum::test

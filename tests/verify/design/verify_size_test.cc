@@ -7,7 +7,7 @@
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
-namespace {
+namespace verify_size_test {
 
 // With a reservoir of any volume a sizing takes thousands of strokes, and there the question was
 // once never asked.
@@ -39,5 +39,5 @@ TEST(VerifySizeTest, StopsWithinAStroke) {
   }
 }
 
-}  // namespace
+}  // namespace verify_size_test
 }  // namespace plenum::test

@@ -161,7 +161,7 @@ double FillFor(const Problem& problem, const Assembly& a, double source_pa, cons
   double high_pa = most_pa;
   const auto objective = [&](double fill_pa) {
     return problem.objective.mass_kg * a.tanks * ChargeKg(problem, *a.tank, fill_pa) +
-           problem.objective.energy_wh * curve.At(fill_pa).energy_j / 3600.0;
+           problem.objective.energy_wh * curve.At(fill_pa).energy_j / optimizer::kJoulePerWattHour;
   };
   for (int i = 0; i < 2 * kHalvings; ++i) {
     const double left_pa = low_pa + (high_pa - low_pa) / 3.0;

@@ -15,7 +15,7 @@ namespace {
 using optimizer::Family;
 using optimizer::Regulation;
 
-constexpr double kRounding = 1e-6;  // relative, of a stated pressure
+constexpr double kPressureRounding = 1e-6;  // relative, of a stated pressure
 
 void CheckPressures(const optimizer::Design& design, const optimizer::Problem& problem,
                     const std::function<void(const char*, std::string)>& fail) {
@@ -25,7 +25,7 @@ void CheckPressures(const optimizer::Design& design, const optimizer::Problem& p
                 "must have a pressure for each of the " + std::to_string(problem.groups.size()) +
                     " groups, behind its own regulator, not " + std::to_string(group_pa.size()));
   const double highest_pa = *std::max_element(group_pa.begin(), group_pa.end());
-  if (std::abs(design.settings.source_pressure_pa - highest_pa) > kRounding * highest_pa)
+  if (std::abs(design.settings.source_pressure_pa - highest_pa) > kPressureRounding * highest_pa)
     fail("/settings/source_pressure_kpa_gauge",
          "must be the highest of group_pressure_kpa_gauge, " +
              Decimal(Rounded(optimizer::KpaGauge(problem, highest_pa))));

@@ -112,12 +112,13 @@ MarkedWord MarkOfWord(std::string_view word, bool in_brackets) {
   return {word, Gauge::kUnsaid};
 }
 
-struct Point {
+struct UnitPoint {
   double raw = 0.0, value = 0.0;
 };
 
 // "0.5 V = 0 bar"
-std::optional<Point> PointOf(std::string_view text, std::string_view field, double ambient_kpa) {
+std::optional<UnitPoint> PointOf(std::string_view text, std::string_view field,
+                                 double ambient_kpa) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) return std::nullopt;
   std::string_view left = Trimmed(text.substr(0, equals));
@@ -128,11 +129,11 @@ std::optional<Point> PointOf(std::string_view text, std::string_view field, doub
       ParseQuantity(right.text + std::string(IsPressureField(field) ? MarkOf(right.gauge) : ""),
                     field, {.ambient_kpa_abs = ambient_kpa, .needs_unit = true});
   if (!raw.value || !value.value) return std::nullopt;
-  return Point{*raw.value, *value.value};
+  return UnitPoint{*raw.value, *value.value};
 }
 
 ScaleOrError ScaleOfPoints(std::string_view field, std::string_view text, double ambient_kpa) {
-  std::vector<Point> points;
+  std::vector<UnitPoint> points;
   for (const std::string_view piece : catalog::Split(text, ';')) {
     const auto point = PointOf(piece, field, ambient_kpa);
     if (!point)
@@ -141,7 +142,7 @@ ScaleOrError ScaleOfPoints(std::string_view field, std::string_view text, double
                   " is no point of a scale; write two as 0.5 V = 0 bar; 4.5 V = 10 bar"};
     points.push_back(*point);
   }
-  if (points.size() == 1) points.insert(points.begin(), Point{});
+  if (points.size() == 1) points.insert(points.begin(), UnitPoint{});
   if (points.size() != 2 || points[0].raw == points[1].raw || points[0].value == points[1].value)
     return {{}, Quoted(text) + " is no scale: it needs two points that differ"};
   Scale scale;

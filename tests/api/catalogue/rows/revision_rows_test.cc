@@ -14,7 +14,7 @@
 #include "tests/catalog/samples.h"
 
 namespace plenum::api {
-namespace {
+namespace revision_rows_test {
 
 using catalog::Part;
 using State = std::map<std::string, Part>;
@@ -117,5 +117,5 @@ TEST(PartRows, AListOutlivesTheOneItCameOf) {
   EXPECT_EQ(*third->rows().All(), *VectorOf(state));
 }
 
-}  // namespace
+}  // namespace revision_rows_test
 }  // namespace plenum::api

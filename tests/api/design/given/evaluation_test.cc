@@ -16,7 +16,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace evaluation_test {
 
 class Evaluation : public testing::TestWithParam<const char*> {
  protected:
@@ -151,5 +151,5 @@ TEST_P(Evaluation, ASingleGroupNeedsNoTime) {
 
 INSTANTIATE_TEST_SUITE_P(Examples, Evaluation, testing::Values("exosuit", "gripper", "crawler"));
 
-}  // namespace
+}  // namespace evaluation_test
 }  // namespace plenum::api

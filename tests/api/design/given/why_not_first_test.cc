@@ -17,7 +17,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace why_not_first_test {
 
 class WhyNotFirst : public testing::TestWithParam<const char*> {
  protected:
@@ -172,5 +172,5 @@ TEST_P(WhyNotFirst, AWrongDesignBesideIsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Examples, WhyNotFirst, testing::Values("exosuit", "gripper", "crawler"));
 
-}  // namespace
+}  // namespace why_not_first_test
 }  // namespace plenum::api

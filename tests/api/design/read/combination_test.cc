@@ -9,7 +9,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace combination_test {
 
 // Six actuators on three valves of two channels, and the pump, pack and bottle of the catalogue.
 Json Compressor() {
@@ -197,5 +197,5 @@ TEST(Combination, WithoutAPriceACostIsNotKnown) {
   EXPECT_EQ(limits, 1);
 }
 
-}  // namespace
+}  // namespace combination_test
 }  // namespace plenum::api

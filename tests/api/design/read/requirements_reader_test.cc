@@ -12,7 +12,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace requirements_reader_test {
 
 using optimizer::Configuration;
 using testing::HasSubstr;
@@ -396,5 +396,5 @@ TEST(Requirements, WeightsMakeTheObjective) {
   EXPECT_EQ(energy.problem.objective.energy_wh, 1.0);
 }
 
-}  // namespace
+}  // namespace requirements_reader_test
 }  // namespace plenum::api

@@ -11,7 +11,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace tolerance_test {
 
 using catalog::Provenance;
 
@@ -170,5 +170,5 @@ TEST(Robust, ALeastProbabilityAloneAsksForDraws) {
   EXPECT_EQ(request.robust->options.draws, 200);
 }
 
-}  // namespace
+}  // namespace tolerance_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "tests/api/support.h"
 
 namespace plenum::api {
-namespace {
+namespace sweep_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -135,5 +135,5 @@ TEST(Sweep, CsvKeepsTextsFromBeingFormulas) {
   EXPECT_EQ(rows[2][2], "a, \"b\"");
 }
 
-}  // namespace
+}  // namespace sweep_test
 }  // namespace plenum::api

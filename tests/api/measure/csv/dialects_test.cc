@@ -11,7 +11,7 @@
 #include "api/measure/measurement.h"
 
 namespace plenum::api {
-namespace {
+namespace dialects_test {
 
 // The recording: times in ms and pressures in Pa gauge, whole numbers, so that each dialect below
 // is written from them without the code under test. It inflates, holds and deflates.
@@ -332,5 +332,5 @@ TEST(RecordingDialects, ColumnsOfNothingAndSeveralRuns) {
   EXPECT_EQ(understood["runs"][1]["readings"], Rows().size());
 }
 
-}  // namespace
+}  // namespace dialects_test
 }  // namespace plenum::api

@@ -13,7 +13,7 @@
 #include "tests/support/places.h"
 
 namespace plenum::api {
-namespace {
+namespace mutations_test {
 
 std::vector<std::string> Seeds() {
   std::vector<std::string> seeds;
@@ -82,5 +82,5 @@ TEST(RecordingMutations, AreReadAskedAboutOrRefused) {
   EXPECT_GT(complete, 20);
 }
 
-}  // namespace
+}  // namespace mutations_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "api/measure/measurement.h"
 
 namespace plenum::api {
-namespace {
+namespace open_test {
 
 using testing::HasSubstr;
 
@@ -204,5 +204,5 @@ TEST(RecordingErrors, OptionsAndRigAreChecked) {
   EXPECT_THAT(absent.errors.front().detail, HasSubstr("no column"));
 }
 
-}  // namespace
+}  // namespace open_test
 }  // namespace plenum::api

@@ -8,7 +8,7 @@
 #include "model/simulate/simulate.h"
 
 namespace plenum::api {
-namespace {
+namespace effect_words_test {
 
 Scale RigidLitre(double highest_pa) {
   Scale scale;
@@ -95,5 +95,5 @@ TEST(EffectWords, AWrongNumberIsSaidBesideTheDeclaredOne) {
             "rest volume is 54.5 mL, 9 % more than declared");
 }
 
-}  // namespace
+}  // namespace effect_words_test
 }  // namespace plenum::api

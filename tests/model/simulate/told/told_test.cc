@@ -11,7 +11,7 @@
 #include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::model {
-namespace {
+namespace told_test {
 
 using enum ValveState;
 
@@ -248,5 +248,5 @@ TEST(Told, WhatCannotBeIsRefused) {
   refused(group, "time_s");
 }
 
-}  // namespace
+}  // namespace told_test
 }  // namespace plenum::model

@@ -11,7 +11,7 @@
 #include "server/jobs/stored_results.h"
 
 namespace plenum::server {
-namespace {
+namespace gzip_test {
 
 // The text of exactly one member of gzip; "not gzip" for anything else.
 std::string Read(const std::vector<Bytes>& pieces) {
@@ -86,5 +86,5 @@ TEST(Accepted, GzipWhereTheClientLikesItAsWell) {
   EXPECT_FALSE(wants(std::nullopt));
 }
 
-}  // namespace
+}  // namespace gzip_test
 }  // namespace plenum::server
