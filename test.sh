@@ -53,7 +53,7 @@ case ${1:-all} in
     run_tests asan
     ;;
   full)
-    export PLENUM_ALL_DRAWS=1  # of tests by enumeration, whose draws are a third else
+    export PLENUM_FULL=1  # tests that are too long for every commit, and all draws of those by enumeration
     install_packages $rule_packages $sanitizer_packages $python_packages $docs_packages
     build release
     run_tests release

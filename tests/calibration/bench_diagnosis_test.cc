@@ -7,6 +7,7 @@
 
 #include "calibration/diagnose.h"
 #include "tests/support/bench/bench_dataset.h"
+#include "tests/support/in_full.h"
 
 namespace plenum::test {
 namespace bench_diagnosis_test {
@@ -114,6 +115,7 @@ TEST(BenchDiagnosis, AnOptimumThatAPairFindsIsTriedWithEachOfItsEffects) {
 // A line whose fit alone ended at a wrong length; a lagging sensor beside it takes up some of what
 // that leaves.
 TEST(BenchDiagnosis, LengthsOfALineAreTriedWithoutTheEffectsBesideIt) {
+  PLENUM_ONLY_IN_FULL();
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(26, 131));
   ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"line_dynamics"}};
@@ -123,6 +125,7 @@ TEST(BenchDiagnosis, LengthsOfALineAreTriedWithoutTheEffectsBesideIt) {
 // A line imitates a cracking pressure beside an opened valve's conductance better than either of
 // them does alone.
 TEST(BenchDiagnosis, PairsAreMadeOfMoreEffectsBeforeAThirdIsAdded) {
+  PLENUM_ONLY_IN_FULL();
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(25, 238));
   ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"cracking_pressure", "directional_conductance"}};

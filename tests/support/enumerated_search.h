@@ -5,20 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include "optimizer/search/tree_search.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/in_full.h"
 #include "verify/verify.h"
 
 namespace plenum::test {
-
-// How many of a test's draws are made: all where PLENUM_ALL_DRAWS is set (./test.sh full), else a
-// third.
-inline int Draws(int all) {
-  return std::getenv("PLENUM_ALL_DRAWS") != nullptr ? all : (all + 2) / 3;
-}
 
 // A search that keeps its record.
 inline optimizer::Answer Recorded(const optimizer::Problem& problem, double seconds = 60.0) {

@@ -9,7 +9,7 @@
 
 #include "model/flow/iso6358.h"
 #include "model/physics/chamber.h"
-#include "tests/support/iso_chain.h"
+#include "tests/support/flow/iso_chain.h"
 
 namespace plenum::test {
 

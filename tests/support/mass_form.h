@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/iso_chain.h"
+#include "tests/support/flow/iso_chain.h"
 
 namespace plenum::test {
 

@@ -10,6 +10,7 @@
 #include "api/json/version.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"
+#include "tests/support/in_full.h"
 
 namespace plenum::api {
 namespace verification_test {
@@ -210,7 +211,8 @@ TEST(Verify, LooksAtFrontsInThreeAmountsAndInEnergy) {
     ASSERT_GE(front["front"].size(), 2u) << amounts;
     EXPECT_EQ(Refusals(front), "") << amounts;
     EXPECT_EQ(Verified(front)["not_rechecked"], Json::array()) << amounts;
-    for (std::size_t i = 0; i < front["front"].size(); ++i)
+    const std::size_t step = test::InFull() ? 1 : std::max(front["front"].size() / 3, 1ul);
+    for (std::size_t i = 0; i < front["front"].size(); i += step)
       EXPECT_NE(Refusals(WithoutPoint(front, i)).find("rechecked: a "), std::string::npos)
           << amounts << i;
   }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/fanno.h"
+#include "tests/support/flow/fanno.h"
 
 namespace plenum::model {
 namespace tube_test {

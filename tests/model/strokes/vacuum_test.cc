@@ -13,7 +13,7 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 #include "model/strokes/stroke_enclosure.h"
-#include "tests/support/iso_chain.h"
+#include "tests/support/flow/iso_chain.h"
 #include "tests/support/random.h"
 
 namespace plenum::model {

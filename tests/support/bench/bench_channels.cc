@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "tests/support/iso_chain.h"
+#include "tests/support/flow/iso_chain.h"
 
 namespace plenum::test {
 namespace {

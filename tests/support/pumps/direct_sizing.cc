@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/flow/series.h"
-#include "tests/support/iso_chain.h"
+#include "tests/support/flow/iso_chain.h"
 
 namespace plenum::test {
 namespace {

@@ -1,6 +1,6 @@
 // Adiabatic flow with friction through a tube: a second opinion on the tube formula.
-#ifndef PLENUM_TESTS_SUPPORT_FANNO_H_
-#define PLENUM_TESTS_SUPPORT_FANNO_H_
+#ifndef PLENUM_TESTS_SUPPORT_FLOW_FANNO_H_
+#define PLENUM_TESTS_SUPPORT_FLOW_FANNO_H_
 
 namespace plenum::test {
 
@@ -18,4 +18,4 @@ FannoTube SolveFanno(double inner_diameter_m, double length_m, double upstream_p
 
 }  // namespace plenum::test
 
-#endif  // PLENUM_TESTS_SUPPORT_FANNO_H_
+#endif  // PLENUM_TESTS_SUPPORT_FLOW_FANNO_H_

@@ -1,6 +1,6 @@
 // ISO 6358 elements in series, solved by bisection on the mass flow; shares no code with the model.
-#ifndef PLENUM_TESTS_SUPPORT_ISO_CHAIN_H_
-#define PLENUM_TESTS_SUPPORT_ISO_CHAIN_H_
+#ifndef PLENUM_TESTS_SUPPORT_FLOW_ISO_CHAIN_H_
+#define PLENUM_TESTS_SUPPORT_FLOW_ISO_CHAIN_H_
 
 #include <cmath>
 #include <vector>
@@ -37,4 +37,4 @@ double ChainFlow(const std::vector<MassElement>& chain, double upstream_pa, doub
 
 }  // namespace plenum::test
 
-#endif  // PLENUM_TESTS_SUPPORT_ISO_CHAIN_H_
+#endif  // PLENUM_TESTS_SUPPORT_FLOW_ISO_CHAIN_H_

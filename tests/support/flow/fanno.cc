@@ -1,4 +1,4 @@
-#include "tests/support/fanno.h"
+#include "tests/support/flow/fanno.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/support/iso_chain.h"
+#include "tests/support/flow/iso_chain.h"
 
 #include <algorithm>
 
