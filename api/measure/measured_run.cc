@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/json/remarks.h"
+#include "api/json/request_limits.h"
 #include "api/json/schema_recorder.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"

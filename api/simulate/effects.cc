@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/json/schema_recorder.h"
 #include "api/json/units.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/words.h"

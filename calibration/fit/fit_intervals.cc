@@ -1,5 +1,4 @@
 // What a fit tells of its numbers: the price of each in BIC, and how far the readings fix it.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "calibration/fit/run_cost.h"
 #include "calibration/noise/whiteness.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
 namespace {
@@ -114,11 +114,11 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
   const Eigen::VectorXd scale = curvature.diagonal().cwiseMax(kLeastCurvature).cwiseSqrt();
   const Eigen::MatrixXd scaled =
       scale.cwiseInverse().asDiagonal() * curvature * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(kLeastCurvature).cwiseInverse();
+  const SymmetricEigen eigen = EigenOf(scaled);
+  const Eigen::VectorXd spread = eigen.values.cwiseMax(kLeastCurvature).cwiseInverse();
   const Eigen::VectorXd unit = scale.cwiseInverse();
-  return unit.asDiagonal() * eigen.eigenvectors() * spread.asDiagonal() *
-         eigen.eigenvectors().transpose() * unit.asDiagonal();
+  return unit.asDiagonal() * eigen.vectors * spread.asDiagonal() * eigen.vectors.transpose() *
+         unit.asDiagonal();
 }
 
 std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance) {

@@ -1,12 +1,12 @@
 #include "calibration/fit/run_cost.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "calibration/values/effect_sets.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
 namespace {
@@ -143,10 +143,7 @@ Eigen::MatrixXd RunCost::RootAt(const double* u) const {
       products(j, i) = scale_ * scale_ * SlopeOf(i, u) * SlopeOf(j, u) *
                        Column(columns, i).dot(Column(columns, j));
   if (!products.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return {};
-  const Eigen::LDLT<Eigen::MatrixXd> factors(products);
-  const Eigen::MatrixXd half =
-      Eigen::MatrixXd(factors.matrixL()) * factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  return (factors.transpositionsP().transpose() * half).transpose();
+  return RootOf(products);
 }
 
 // Of the coordinate's number by u; the residuals' column has none.

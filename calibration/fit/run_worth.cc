@@ -1,8 +1,9 @@
 #include "calibration/fit/run_worth.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
 namespace {
@@ -71,7 +72,7 @@ double Left(const std::vector<Pieces>& pieces, const Eigen::MatrixXd& curvature,
   }
   if (sum.rows() == 0) return rest;
   sum.diagonal().array() += kLeastCurvature * std::max(sum.diagonal().maxCoeff(), 1.0);
-  return std::max(0.0, rest - pull.dot(sum.ldlt().solve(pull)));
+  return std::max(0.0, rest - pull.dot(SolvedSymmetric(sum, pull)));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "calibration/fit/start_scan.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,6 +8,7 @@
 #include "calibration/fit/run_cost.h"
 #include "calibration/values/effect_sets.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/symmetric.h"
 #include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
@@ -65,7 +65,7 @@ struct Terms {
 double AtBest(const Terms& terms) {
   Eigen::MatrixXd jj = terms.jj;
   jj.diagonal() *= 1.0 + kRidge;
-  return terms.squares - terms.je.dot(jj.ldlt().solve(terms.je));
+  return terms.squares - terms.je.dot(SolvedSymmetric(jj, terms.je));
 }
 
 // The fit's residuals and derivatives by run, and the priors' part.

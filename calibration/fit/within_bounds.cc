@@ -1,9 +1,10 @@
 #include "calibration/fit/within_bounds.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
 namespace {
@@ -44,7 +45,7 @@ Eigen::VectorXd StepOf(const Eigen::MatrixXd& jj, const Eigen::VectorXd& je,
     free(j, j) = 1.0;
     down[j] = 0.0;
   }
-  return free.ldlt().solve(down);
+  return SolvedSymmetric(free, down);
 }
 
 // The numbers to be held at their bounds.

@@ -1,11 +1,11 @@
 #include "calibration/judge/closeness.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
 #include "calibration/fit/run_worth.h"
 #include "calibration/judge/evidence.h"
+#include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
 
@@ -16,7 +16,7 @@ double EvidenceOf(const Bench& bench, const Fit& fit, double memory) {
     const bool prior = fit.coordinates[static_cast<std::size_t>(j)].prior;
     (*curvature)(j, j) += memory - (prior ? 1.0 : 0.0);
   }
-  const Eigen::VectorXd taken = (*curvature / memory).eval().ldlt().vectorD();
+  const Eigen::VectorXd taken = PivotsOf(*curvature / memory);
   const double n = static_cast<double>(fit.rows);
   return n / memory * std::log(fit.chi2_data / n) + fit.chi2_prior + taken.array().log().sum();
 }

@@ -1,10 +1,10 @@
 #include "calibration/judge/identifiability.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/fit/run_worth.h"
+#include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
 namespace {
@@ -90,17 +90,16 @@ std::optional<Identifiability> Identify(const FitData& data, const Fit& fit,
       scaled(a, b) = (*curvature)(static_cast<Eigen::Index>(heard[static_cast<std::size_t>(a)]),
                                   static_cast<Eigen::Index>(heard[static_cast<std::size_t>(b)])) /
                      (root[a] * root[b]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(kLeastCurvature).cwiseInverse();
+  const SymmetricEigen eigen = EigenOf(scaled);
+  const Eigen::VectorXd spread = eigen.values.cwiseMax(kLeastCurvature).cwiseInverse();
   const auto deviation = [&](Eigen::Index a) {
-    return std::sqrt(eigen.eigenvectors().row(a).cwiseAbs2().dot(spread.transpose())) / root[a];
+    return std::sqrt(eigen.vectors.row(a).cwiseAbs2().dot(spread.transpose())) / root[a];
   };
-  for (Eigen::Index v = 0; v < count && eigen.eigenvalues()[v] < kAliasEigenvalue; ++v) {
+  for (Eigen::Index v = 0; v < count && eigen.values[v] < kAliasEigenvalue; ++v) {
     std::vector<std::string> group;
     for (Eigen::Index a = 0; a < count; ++a) {
       const std::size_t j = heard[static_cast<std::size_t>(a)];
-      if (std::abs(eigen.eigenvectors()(a, v)) >= kTakesPart &&
-          deviation(a) > Unfixed(fit.coordinates[j]))
+      if (std::abs(eigen.vectors(a, v)) >= kTakesPart && deviation(a) > Unfixed(fit.coordinates[j]))
         group.push_back(names[j]);
     }
     if (group.size() > 1) found.aliases.push_back(std::move(group));

@@ -1,13 +1,12 @@
 #include "calibration/learn/criticism.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <vector>
 
 #include "calibration/values/parallel.h"
+#include "calibration/values/symmetric.h"
 #include "model/effects/learned/learned.h"
 
 namespace plenum::calibration {
@@ -120,20 +119,20 @@ double Gain(const Sums& sums) {
   Eigen::VectorXd g = sums.ae;
   if (sums.jj.rows() > 0) {
     const Eigen::VectorXd unit = sums.jj.diagonal().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
-    const Eigen::LDLT<Eigen::MatrixXd> scaled(
+    const Eigen::MatrixXd scaled =
         unit.asDiagonal() * sums.jj * unit.asDiagonal() +
-        kRidge * Eigen::MatrixXd::Identity(sums.jj.rows(), sums.jj.rows()));
-    const Eigen::MatrixXd taken = unit.asDiagonal() * scaled.solve(unit.asDiagonal() * sums.ja);
+        kRidge * Eigen::MatrixXd::Identity(sums.jj.rows(), sums.jj.rows());
+    const Eigen::MatrixXd taken =
+        unit.asDiagonal() * SolvedSymmetric(scaled, Eigen::MatrixXd(unit.asDiagonal() * sums.ja));
     m -= sums.ja.transpose() * taken;
     g -= taken.transpose() * sums.je;
   }
   const Eigen::VectorXd unit = sums.aa.diagonal().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * m *
-                                                             unit.asDiagonal());
-  const Eigen::VectorXd along = eigen.eigenvectors().transpose() * (unit.asDiagonal() * g);
+  const SymmetricEigen eigen = EigenOf(unit.asDiagonal() * m * unit.asDiagonal());
+  const Eigen::VectorXd along = eigen.vectors.transpose() * (unit.asDiagonal() * g);
   double gain = 0.0;
   for (Eigen::Index k = 0; k < along.size(); ++k)
-    if (eigen.eigenvalues()[k] > kOwn) gain += along[k] * along[k] / eigen.eigenvalues()[k];
+    if (eigen.values[k] > kOwn) gain += along[k] * along[k] / eigen.values[k];
   return gain;
 }
 

@@ -20,6 +20,8 @@
 namespace plenum::server {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::seconds kSavePatience{60};
 constexpr const char* kModel = "model";
 constexpr const char* kSave = "save";
@@ -177,7 +179,6 @@ void SavePart(SharedCatalog& catalog, const Names& names, const std::string& who
 Work DiagnosisWork(SharedCatalog& catalog) {
   return [&catalog](const catalog::JobOrder& order,
                     const JobControl& control) -> api::Parsed<api::Json> {
-    using Clock = std::chrono::steady_clock;
     auto models = ModelsOf(catalog, order);
     if (auto* errors = std::get_if<api::Errors>(&models)) return *errors;
     auto json = api::ParseJson(order.request);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
 #include "api/measure/csv/recording_columns.h"
