@@ -9,9 +9,6 @@ using catalog::ColumnRead;
 using catalog::Question;
 using catalog::TableReading;
 
-Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-Json RowOrNull(int row) { return row == 0 ? Json(nullptr) : Json(row); }
-
 Json RenderColumn(const ColumnRead& column) {
   Json targets = Json::array();
   for (const catalog::Target& target : column.targets)

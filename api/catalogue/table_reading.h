@@ -20,6 +20,12 @@ void ReadTableColumns(const std::vector<std::string>& given, catalog::TableOptio
 void ReadTableSet(const std::vector<std::string>& given, catalog::TableOptions& options,
                   Errors& errors);
 
+// Null where nothing was understood: no text, row 0.
+inline Json TextOrNull(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+inline Json RowOrNull(int row) { return row == 0 ? Json(nullptr) : Json(row); }
+
 // Questions and errors of a reading; pointers are /option, and /column/HEADING of a column.
 Errors ErrorsOf(const catalog::TableReading& reading);
 

@@ -1,5 +1,5 @@
-// Factors of symmetric matrices, compiled once: the decompositions of a matrix library are
-// templates that take its users' compiler half a minute each.
+// Factors of symmetric matrices, compiled once: the templates of a matrix library's decompositions
+// cost each source that uses them much of the compiler's time.
 #ifndef PLENUM_CALIBRATION_VALUES_SYMMETRIC_H_
 #define PLENUM_CALIBRATION_VALUES_SYMMETRIC_H_
 

@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <string_view>
 
+#include "server/call/lower_case.h"
+
 namespace plenum::server {
 namespace {
-
-std::string LowerCase(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-  return text;
-}
 
 // The name and the port of "LocalHost:8080" or "[::1]:8080", the name in lower case; no name where
 // it is none.

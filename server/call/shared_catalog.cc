@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <ctime>
+#include <ratio>
 #include <utility>
 
 namespace plenum::server {
@@ -13,14 +14,13 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTryEvery = std::chrono::milliseconds(2);
 constexpr std::chrono::milliseconds kLockPatience{100};  // for other processes
 constexpr std::chrono::milliseconds kLeaveAlone{500};    // a file that they keep
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 // Two writes within one tick of the file system's clock leave the same time.
 constexpr std::int64_t kTickNs = 50'000'000;
 
 std::int64_t NowNs() {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
-  return now.tv_sec * kNsPerS + now.tv_nsec;
+  return now.tv_sec * std::nano::den + now.tv_nsec;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ SharedCatalog::FileState SharedCatalog::StateOfFile() const {
   struct stat file {};
   if (stat(path_.c_str(), &file) != 0) return {};
   return {file.st_ino, file.st_dev, file.st_size,
-          file.st_mtim.tv_sec * kNsPerS + file.st_mtim.tv_nsec};
+          file.st_mtim.tv_sec * std::nano::den + file.st_mtim.tv_nsec};
 }
 
 std::shared_ptr<void> SharedCatalog::TakePlace() {

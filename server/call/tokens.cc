@@ -174,11 +174,11 @@ TokenKeeper::TokenKeeper(fs::path file) : file_(std::move(file)) {}
 TokenKeeper::~TokenKeeper() = default;
 
 TokenKeeper::FileState TokenKeeper::StateOf(const fs::path& file) {
-  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
   struct stat state {};
   if (stat(file.c_str(), &state) != 0) return {};
-  return {state.st_ino, state.st_size, state.st_mtim.tv_sec * kNsPerSecond + state.st_mtim.tv_nsec,
-          state.st_ctim.tv_sec * kNsPerSecond + state.st_ctim.tv_nsec};
+  return {state.st_ino, state.st_size,
+          state.st_mtim.tv_sec * std::nano::den + state.st_mtim.tv_nsec,
+          state.st_ctim.tv_sec * std::nano::den + state.st_ctim.tv_nsec};
 }
 
 void TokenKeeper::RefreshFromServer() {

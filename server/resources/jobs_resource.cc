@@ -11,6 +11,7 @@
 #include "server/call/coding/accepted.h"
 #include "server/call/coding/gzip.h"
 #include "server/call/entity_tag.h"
+#include "server/call/lower_case.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 
@@ -103,10 +104,7 @@ std::string ETagOf(const JobsResource& resource, const Job& job) {
 std::string Unquoted(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\"");
   if (first == std::string_view::npos) return "";
-  std::string bare(text.substr(first, text.find_last_not_of(" \t\"") - first + 1));
-  for (char& c : bare)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return bare;
+  return LowerCase(std::string(text.substr(first, text.find_last_not_of(" \t\"") - first + 1)));
 }
 
 // What a client that waited gets.

@@ -9,6 +9,7 @@
 #include "api/describe/descriptions.h"
 #include "api/json/schema_recorder.h"
 #include "api/protocol/test_sensor.h"
+#include "server/call/lower_case.h"
 #include "server/resources/schemas/diagnosis_schemas.h"
 #include "server/resources/schemas/schema_forms.h"
 #include "server/resources/schemas/sweep_schemas.h"
@@ -362,12 +363,6 @@ Json Render(const Route& route) {
   responses["default"] = Ref("responses", "Problem");
   if (route.access == Access::kOpen) json["security"] = Json::array();
   return json;
-}
-
-std::string LowerCase(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-  return text;
 }
 
 }  // namespace

@@ -8,11 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include "server/wire/request_frame.h"
+
 namespace plenum::server {
 namespace {
 
 constexpr int kListenBacklog = 1024;
-constexpr std::string_view kLineEnd = "\r\n";
 constexpr int kCannotRead = 400;
 
 // A head to read from. What httplib answers to it is kept: its status tells why it cannot be read.

@@ -8,7 +8,6 @@
 namespace plenum::server {
 namespace {
 
-constexpr std::string_view kLineEnd = "\r\n";
 constexpr std::size_t kChunkLineMax = 256;
 // Each chunk costs a line; a body in single bytes would be seven times its size.
 constexpr std::size_t kChunkedBytesMax = 2 * kBodyBytesMax;

@@ -10,6 +10,8 @@
 
 namespace plenum::server {
 
+inline constexpr std::string_view kLineEnd = "\r\n";
+
 // Why bytes are no request that is served. `limit` names the limit that they exceed, if any.
 struct Refusal {
   int status = 0;

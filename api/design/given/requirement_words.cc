@@ -16,7 +16,7 @@ struct Words {
   bool at_least = false;
 };
 
-constexpr std::array kWords{
+constexpr std::array kRequirementWords{
     Words{"/rise_time_s_max", "rise time", " s"},
     Words{"/fall_time_s_max", "fall time", " s"},
     Words{"/pressure_kpa_gauge_max", "highest pressure", " kPa gauge"},
@@ -43,7 +43,7 @@ constexpr std::string_view kActuators = "/actuators/";
 constexpr std::string_view kRequire = "/require/";
 
 Words WordsOf(std::string_view pointer) {
-  for (const Words& one : kWords)
+  for (const Words& one : kRequirementWords)
     if (pointer.ends_with(one.field)) return one;
   return {"", pointer, ""};
 }

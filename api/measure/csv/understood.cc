@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
+#include "api/catalogue/table_reading.h"
 #include "api/json/words.h"
 #include "catalog/units/quantity.h"
 
 namespace plenum::api {
 namespace {
-
-Json KnownOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-Json LineOrNull(int line) { return line == 0 ? Json(nullptr) : Json(line); }
 
 Json ColumnOf(const Recording& recording, std::size_t i) {
   const catalog::ColumnRead& column = recording.table.columns[i];
@@ -20,13 +18,13 @@ Json ColumnOf(const Recording& recording, std::size_t i) {
   return {
       {"key", column.key},
       {"heading", column.heading},
-      {"field", KnownOrNull(field)},
+      {"field", TextOrNull(field)},
       {"unit",
-       KnownOrNull(unit.empty() && has_numbers ? std::string(catalog::UnitOf(field)) : unit)},
+       TextOrNull(unit.empty() && has_numbers ? std::string(catalog::UnitOf(field)) : unit)},
       {"factor", has_numbers ? Json(recording.scales[i].numerator / recording.scales[i].denominator)
                              : Json(nullptr)},
       {"offset", has_numbers ? Json(recording.scales[i].offset) : Json(nullptr)},
-      {"meaning", KnownOrNull(i < recording.meanings.size() ? recording.meanings[i] : "")},
+      {"meaning", TextOrNull(i < recording.meanings.size() ? recording.meanings[i] : "")},
       {"first", column.samples}};
 }
 
@@ -59,11 +57,11 @@ Json UnderstoodOf(const Recording& recording) {
                                     TakeGaugeMark(target.unit).gauge == Gauge::kAbsolute);
   }
   for (const RecordedRun& run : recording.runs) runs.push_back(RunOf(run));
-  return {{"encoding", KnownOrNull(table.encoding)},
-          {"delimiter", KnownOrNull(table.delimiter)},
+  return {{"encoding", TextOrNull(table.encoding)},
+          {"delimiter", TextOrNull(table.delimiter)},
           {"decimal", has_decimals ? Json(has_comma ? "comma" : "point") : Json(nullptr)},
-          {"heading_line", LineOrNull(recording.has_headings ? table.header_row : 0)},
-          {"units_line", LineOrNull(table.units_row)},
+          {"heading_line", RowOrNull(recording.has_headings ? table.header_row : 0)},
+          {"units_line", RowOrNull(table.units_row)},
           {"ambient_kpa_abs", is_absolute ? Json(recording.ambient_kpa_abs) : Json(nullptr)},
           {"columns", std::move(columns)},
           {"runs", std::move(runs)},

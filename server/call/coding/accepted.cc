@@ -4,6 +4,9 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <utility>
+
+#include "server/call/lower_case.h"
 
 namespace plenum::server {
 namespace {
@@ -11,9 +14,7 @@ namespace {
 std::string WithoutBlanks(std::string_view text) {
   std::string bare(text);
   std::erase_if(bare, [](char c) { return c == ' ' || c == '\t'; });
-  for (char& c : bare)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return bare;
+  return LowerCase(std::move(bare));
 }
 
 }  // namespace
