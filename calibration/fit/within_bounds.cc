@@ -108,7 +108,7 @@ BoundedSolution SolveWithinBounds(ceres::Solver::Options solver, ceres::Problem&
     ceres::Solver::Summary lap;
     ceres::Solve(solver, &problem, &lap);
     problem.SetManifold(u.data(), nullptr);
-    const BoundedSolution solution{lap.termination_type, lap.message, lap.final_cost};
+    BoundedSolution solution{lap.termination_type, lap.message, lap.final_cost};
     const bool at_bound = lap.termination_type == ceres::USER_SUCCESS;
     if (!at_bound && lap.termination_type != ceres::CONVERGENCE) return solution;
     solver.max_num_iterations -= static_cast<int>(lap.iterations.size()) - 1;
