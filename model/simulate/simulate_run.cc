@@ -15,7 +15,7 @@ constexpr double kSettledShare = 1e-3;
 // follows its sensor's noise has, and the error control sees the bends that matter.
 constexpr double kRough = 1e-5;
 // Steps at the border of stability after which CVODE is the better integrator.
-constexpr std::size_t kStiffSteps = 5000;
+constexpr std::size_t kStiffSteps = 800;
 // Times the tolerance to the −1/3 about twice the steps of the method that damps, of order 3.
 constexpr double kDampedSteps = 10.0;
 constexpr std::size_t kStiffShare = 20;  // of steps_max: a run to be damped starts anew early

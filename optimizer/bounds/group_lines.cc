@@ -12,13 +12,6 @@ namespace {
 constexpr double kRounding = 1e-12;  // of sums in another order
 constexpr std::size_t kNeedsKept = 500'000, kLeastKept = 100'000;
 
-int LeafOf(const std::vector<BoxNode>& nodes, int choice) {
-  int at = 0;
-  while (!nodes[at].single())
-    at = choice < nodes[nodes[at].right].first ? nodes[at].left : nodes[at].right;
-  return at;
-}
-
 // What divides the pressures in front of the regulator: lines whose valves do not hold end at the
 // highest that their group stands, and less pressure leaves less at the node.
 std::vector<double> SourceSteps(const Problem& problem, const Window& window) {

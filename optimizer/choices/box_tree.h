@@ -38,6 +38,14 @@ struct BoxNode {
   int size() const { return last - first; }
 };
 
+// The node of a single choice.
+inline int LeafOf(const std::vector<BoxNode>& nodes, int choice) {
+  int at = 0;
+  while (!nodes[at].single())
+    at = choice < nodes[nodes[at].right].first ? nodes[at].left : nodes[at].right;
+  return at;
+}
+
 // Node 0 is the root; no nodes where the family has no choices.
 template <typename Corner>
 struct BoxTree {

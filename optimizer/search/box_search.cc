@@ -9,6 +9,7 @@
 #include "optimizer/search/configurations.h"
 #include "optimizer/search/dive.h"
 #include "optimizer/search/first_designs.h"
+#include "optimizer/search/in_turns.h"
 #include "optimizer/search/ranking.h"
 #include "optimizer/search/recorder.h"
 #include "optimizer/search/search_node.h"
@@ -23,6 +24,7 @@ constexpr double kProgressIntervalS = 0.2;
 constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;     // of the time limit
 constexpr double kFirstFrom = 0.01, kFirstShare = 0.1;  // the same
+constexpr double kTurnsShare = 0.15;                    // of it, for the groups in turns
 // Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a pump's source
 // pressure with several groups, which may take simulations.
 constexpr int kStepsPerRefine = 32, kStepsPerSimulation = 3000;
@@ -265,9 +267,27 @@ class BoxSearch {
   void SeekFirstDesigns() {
     const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
     const auto due = Due(problem_, configurations_.planted(), slow, sought_);
-    for (Bounds* bounds : due)
-      watch_.DiveFor(kFirstShare / static_cast<double>(due.size()),
-                     [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
+    const double share = kFirstShare / static_cast<double>(due.size());
+    const double turns_share = kTurnsShare / static_cast<double>(due.size());
+    for (Bounds* bounds : due) {
+      if (std::vector<Box> likely = LikeInTurns(*bounds, turns_share); !likely.empty())
+        watch_.DiveFor(turns_share, [&] {
+          SearchLikely(problem_, *bounds, std::move(likely), bench_.stop, ranking_);
+        });
+      watch_.DiveFor(share, [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
+    }
+  }
+
+  // Boxes that designs of the groups in turns suggest, in this share of the time limit.
+  std::vector<Box> LikeInTurns(const Bounds& bounds, double share) const {
+    const Configuration configuration = bounds.plan().configuration;
+    if (!IsCheaperInTurns(problem_, configuration)) return {};
+    SearchOptions options = options_;
+    options.record = false;
+    options.progress = {};
+    options.time_limit_s *= share;
+    return BoxesLike(problem_, bounds,
+                     SearchBoxes(InTurns(problem_, configuration), options).designs);
   }
 
   // With a third of the time gone good designs are sought by depth first, in case time runs out.

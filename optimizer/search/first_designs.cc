@@ -128,6 +128,12 @@ std::vector<Bounds*> Due(const Problem& problem,
   return chosen;
 }
 
+void SearchLikely(const Problem& problem, Bounds& bounds, std::vector<Box> likely,
+                  const std::function<bool()>& stop, Ranking& ranking) {
+  const Walk walk{problem, bounds, stop, ranking};
+  for (Box& box : likely) SearchBelow(walk, std::move(box), 1);
+}
+
 void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::function<bool()>& stop,
                       Ranking& ranking) {
   const Walk walk{problem, bounds, stop, ranking};

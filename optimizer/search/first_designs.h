@@ -28,7 +28,10 @@ std::vector<Bounds*> Due(const Problem& problem,
                          const std::vector<std::unique_ptr<Bounds>>& planted, bool slow,
                          Sought& sought);
 
-// Adds what it finds to the ranking, until `stop` says so.
+// Both add what they find to the ranking, until `stop` says so. The first looks into boxes, not
+// assessed, that are likely to hold designs, for one in each.
+void SearchLikely(const Problem& problem, Bounds& bounds, std::vector<Box> likely,
+                  const std::function<bool()>& stop, Ranking& ranking);
 void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::function<bool()>& stop,
                       Ranking& ranking);
 

@@ -7,6 +7,7 @@
 #include "optimizer/evaluate/refilled_tank.h"
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/full_strokes.h"
 #include "optimizer/pump/pump_bounds.h"
 #include "optimizer/pump/pump_slope.h"
 #include "optimizer/pump/stroke_bound.h"
@@ -228,6 +229,8 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
                                     OperatingPoint point, double tolerance) {
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return {LeafStatus::kInfeasible};
+  point.source_pa = window.high_pa;
+  if (TooSlowWhenFull(problem, candidate, point)) return {LeafStatus::kInfeasible};
   bool failed = false;
   const auto excess = [&](double source_pa) {
     point.source_pa = source_pa;
