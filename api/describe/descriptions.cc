@@ -88,9 +88,11 @@ Json EvacuatedRequirements() {
                      "operating_pressure_kpa_gauge": -60, "pressure_kpa_gauge_min": -65,
                      "tube_length_m": 1 } ],
     "duty": { "frequency_hz": 0.1, "actuations": 10 },
-    "supply": { "vacuum": { "configurations": ["pump", "mains"], "vacuum_kpa_gauge_min": -80,
+    "supply": { "mains": { "pressure_kpa_gauge": 600, "flow_l_per_min_anr_max": 100 },
+                "vacuum": { "configurations": ["pump", "ejector", "mains"],
+                            "vacuum_kpa_gauge_min": -80,
                             "mains": { "pressure_kpa_gauge": -85 } } },
-    "require": { "vacuum_pump": ["x"] } })");
+    "require": { "vacuum_pump": ["x"], "ejector": ["x"] } })");
 }
 
 // The ways to write a line, a source and a schedule that the example does not use. It runs

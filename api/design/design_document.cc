@@ -132,6 +132,7 @@ void AddAssumedOfVacuum(const catalog::Part& row, Quality& quality) {
     quality.estimated.insert("valve.vacuum_rated");
   if (row.family == "vacuum_pump" && !row.numbers.contains("duty_max"))
     quality.estimated.insert("vacuum_pump.duty_max");
+  if (row.family == "ejector") quality.estimated.insert("ejector.suction_curve");
 }
 
 Json RenderQuality(const Quality& quality, double mass_kg) {
@@ -236,12 +237,26 @@ Quality QualityOf(const optimizer::Design& design, const optimizer::Problem& pro
   return quality;
 }
 
+// What the ejectors of a design take all the while, L/min ANR; null without any.
+Json RenderCompressedAir(const optimizer::Design& design, const optimizer::Problem& problem) {
+  for (const optimizer::Choice& row : design.parts) {
+    if (row.family != optimizer::Family::kEjector) continue;
+    const int part = optimizer::FindPart(problem.parts, row.family, row.id);
+    if (part >= 0)
+      return Number(
+          LPerMinFromM3PerS(row.quantity * problem.parts.ejectors[part].air_consumption_m3_per_s));
+  }
+  return nullptr;
+}
+
 Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem) {
   Json settings = RenderSettings(design.settings, problem);
   settings["power"] = RenderPower(design, problem);
+  Json performance = RenderPerformance(design.performance, problem);
+  performance["compressed_air_l_per_min_anr"] = RenderCompressedAir(design, problem);
   return {{"settings", std::move(settings)},
           {"totals", RenderTotals(design.totals)},
-          {"performance", RenderPerformance(design.performance, problem)},
+          {"performance", std::move(performance)},
           {"margins", RenderMargins(design.margins)}};
 }
 

@@ -142,6 +142,8 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
         ++counts["orderable"][part.family];
       else if (optimizer::Evacuated(problem) && !StandsVacuum(part))
         ++counts["vacuum"][part.family];
+      else if (!HasItsPressure(problem, part))
+        ++counts["supply_pressure"][part.family];
     }
   Json left_out = Json::object();
   if (!excluded.empty()) left_out["exclude"] = std::move(excluded);

@@ -203,7 +203,8 @@ optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
   static const auto kConfigurations = NamesOf<Configuration>(
       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
        Configuration::kMains, Configuration::kTank, Configuration::kDirectPump,
-       Configuration::kVacuumPump, Configuration::kDirectVacuumPump, Configuration::kTankAndPump});
+       Configuration::kVacuumPump, Configuration::kDirectVacuumPump, Configuration::kTankAndPump,
+       Configuration::kEjector, Configuration::kDirectEjector});
   optimizer::ProofRecord record;
   record.count = reader.Integer("count", 1, 1'000'000);
   for (const Element& element : reader.List("plans", 0, 2 * optimizer::kConfigurations)) {

@@ -17,6 +17,9 @@ import pumps
 import tables
 from tables import is_known, number, predict_into
 
+EJECTOR_FLOWS = ("suction_flow_l_per_min_anr", "vacuum_max_kpa_gauge",
+                 "air_consumption_l_per_min_anr", "supply_pressure_kpa_gauge")
+EJECTOR_SPREAD = 0.7
 BORE = re.compile(r"(?:C by bore|assumed bore of) ([\d.]+) mm")
 
 
@@ -143,6 +146,18 @@ def fill_vessels(all_rows, made):
         fill(made["steel_tank_mass"], row, "mass_kg")
 
 
+def fill_ejectors(rows):
+    """Mass and body of those whose flows are all known: no law, since one row alone has them."""
+    known = [row for row in rows if is_known(row, "mass_kg") and is_known(row, "body_volume_ml")]
+    if len(known) != 1:
+        raise SystemExit("several ejectors have a printed mass: time for a law")
+    source = f"rule: ejector size, as {known[0]['id']}, the only one with a printed mass, data README"
+    for row in rows:
+        if all(is_known(row, field) for field in EJECTOR_FLOWS):
+            for field in ("mass_kg", "body_volume_ml"):
+                predict_into(row, field, number(known[0], field), EJECTOR_SPREAD, source)
+
+
 def shares(all_rows):
     print(f"{'family':13} {'parts':>6} {'priced':>7} {'numbers':>8} {'estimated':>10} {'orderable':>10}")
     total = [0] * 5
@@ -176,6 +191,7 @@ def main():
     fill_packs(all_rows["battery"], made)
     pumped = fill_pumps(all_rows["compressor"] + all_rows["vacuum_pump"], made)
     fill_vessels(all_rows, made)
+    fill_ejectors(all_rows["ejector"])
     if option == "--report":
         import plots
         return plots.report(sys.argv[2], made, spreads, pumped)

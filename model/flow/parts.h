@@ -73,6 +73,8 @@ struct Compressor {
   PartBasics basics;
   CompressorCurve curve;
   double duty_max = 1.0;  // thermal limit on the share of time that it runs
+  // Of an ejector, which has no motor (curve.voltage_v 0), while it runs, ANR.
+  double air_consumption_m3_per_s = 0.0;
   bool operator==(const Compressor&) const = default;
 };
 
@@ -145,6 +147,7 @@ struct Parts {
   std::vector<Reservoir> tanks;          // the same parts, filled beforehand
   std::vector<Compressor> vacuum_pumps;  // curves over mirrored pressures (chamber.h)
   std::vector<Manifold> manifolds;
+  std::vector<Compressor> ejectors;  // as vacuum_pumps
 };
 
 }  // namespace plenum::model

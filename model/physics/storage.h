@@ -15,7 +15,7 @@ inline constexpr double kVoltageTolerance = 0.15;
 // Ah·V·DoD in J.
 double UsableEnergy(double capacity_ah, double nominal_voltage_v);
 
-// |V_pack − V_pump| ≤ 15 % of V_pump.
+// |V_pack − V_pump| ≤ 15 % of V_pump. A pump of 0 V has no motor (an ejector): any pack suits.
 bool VoltageMatches(double pack_voltage_v, double pump_voltage_v);
 
 // Gas charge of a cylinder of compressed air, kg, with compressibility:

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -56,6 +57,7 @@ class CycleMap {
     }
     for (std::size_t i = 0; i < rig.groups.size(); ++i) {
       Repeat(rig_.groups[i].schedule, system.valve_delay_s(i));
+      if (rig.groups[i].close_at_operating) CloseWhatWasFilled(rig_.groups[i].schedule);
       commands_.push_back(rig.groups[i].schedule.size());
     }
   }
@@ -105,6 +107,17 @@ class CycleMap {
         schedule.push_back({command.time_s - back * period_s_, command.state});
       }
     }
+  }
+
+  // A valve that was told to inflate before 0 has closed since, as it will in later periods: open
+  // it would fill its chamber beyond the operating pressure in the first.
+  void CloseWhatWasFilled(std::vector<ValveCommand>& schedule) const {
+    constexpr double kJustBefore = -1e-12;  // of the period
+    const auto now =
+        std::find_if(schedule.begin(), schedule.end(),
+                     [](const ValveCommand& command) { return command.time_s >= 0.0; });
+    if (now != schedule.begin() && std::prev(now)->state == ValveState::kInflate)
+      schedule.insert(now, {kJustBefore * period_s_, ValveState::kHold});
   }
 
   // Whether the integrator gave up because the equations are stiff.

@@ -11,6 +11,7 @@
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/problem/pump_feed.h"
 #include "optimizer/sizing/group_pressures.h"
 #include "optimizer/sizing/sizing.h"
 
@@ -26,13 +27,16 @@ NeededPressure HighestNeeded(const GroupPressures& groups) {
 
 }  // namespace
 
-// True also while one of the two is not chosen.
+// True also while one of the two is not chosen. Ejectors need air, and no pack.
 bool Bounds::PackDrivesPump(const Box& box) const {
-  if (!Node(box, plan_.compressor_slot).single() || !Node(box, plan_.battery_slot).single())
-    return true;
+  if (!Node(box, plan_.compressor_slot).single()) return true;
+  const Option& pumps = OptionOf(box, plan_.compressor_slot);
+  if (!AirSuffices(problem_, PumpsOf(problem_, plan_.configuration)[pumps.index], pumps.quantity))
+    return false;
+  if (!Node(box, plan_.battery_slot).single()) return true;
   return model::VoltageMatches(
       problem_.parts.batteries[OptionOf(box, plan_.battery_slot).index].nominal_voltage_v,
-      PumpsOf(problem_)[OptionOf(box, plan_.compressor_slot).index].curve.voltage_v);
+      PumpsOf(problem_, plan_.configuration)[pumps.index].curve.voltage_v);
 }
 
 // Window, strokes and needs of pumps without a reservoir. The lower end of the window is what is
@@ -97,8 +101,9 @@ const PumpFacts& Bounds::PumpOf(const Box& box) {
   if (fresh) {
     if (Node(box, plan_.compressor_slot).single()) {
       const Option& option = OptionOf(box, plan_.compressor_slot);
-      entry->second = MakePumpFacts(problem_, PumpsOf(problem_)[option.index].curve,
-                                    option.quantity, fine ? kPumpTableCells : kBoxCells);
+      entry->second =
+          MakePumpFacts(problem_, PumpsOf(problem_, plan_.configuration)[option.index].curve,
+                        option.quantity, fine ? kPumpTableCells : kBoxCells);
     } else {
       entry->second = MakePumpFacts(problem_, plan_.highest_pump_pa,
                                     CornerAt(plan_.compressors, box, plan_.compressor_slot).pump);
@@ -253,7 +258,8 @@ Constraint Bounds::FindStockSource(Box& box) {
   if (PumpEnergyRises(problem_, candidate)) {
     const Evaluation least = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     if (least.failed) return Constraint::kNone;
-    const double duty_max = PumpsOf(problem_)[candidate.compressor.index].duty_max;
+    const double duty_max =
+        PumpsOf(problem_, plan_.configuration)[candidate.compressor.index].duty_max;
     if (!(least.compressor_duty <= duty_max)) return Constraint::kPump;
     // Of several groups each look at another pressure would be a simulation.
     const bool cheap = MeetingOf(problem_) == Meeting::kAlone;

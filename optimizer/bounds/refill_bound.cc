@@ -19,7 +19,7 @@ double CapacityM3PerPa(const TankAt& at) {
 void Narrow(const TankAt& at, double cycle_m3, double kept_pa, const Option& chosen,
             Refilling& refilling) {
   const Problem& problem = at.problem;
-  const model::Compressor& pump = PumpsOf(problem)[chosen.index];
+  const model::Compressor& pump = PumpsOf(problem, Configuration::kTankAndPump)[chosen.index];
   const double seconds = (problem.actuations - 1.0) / problem.frequency_hz / kRounding;
   const model::RefillInput input{.compressor = &pump.curve,
                                  .compressors = chosen.quantity,

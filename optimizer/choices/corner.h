@@ -77,7 +77,7 @@ struct BottleCorner {
 struct CompressorCorner {
   Amounts amounts;
   double objective = 0.0;
-  Kinds voltages = 0;
+  Kinds voltages = 0;  // none: ejectors for which there is not enough air
   double duty_max = 0.0;
   double pressure_max_pa = 0.0;
   CoarsePump pump;

@@ -13,7 +13,7 @@
 #ifndef PLENUM_OPTIMIZER_CHOICES_DOMINANCE_H_
 #define PLENUM_OPTIMIZER_CHOICES_DOMINANCE_H_
 
-#include <boost/container/static_vector.hpp>
+#include <boost/container/small_vector.hpp>
 #include <functional>
 #include <string_view>
 #include <vector>
@@ -24,7 +24,7 @@
 namespace plenum::optimizer {
 
 // Kept within the contender, since there are many of them. As many as any family has.
-using Losses = boost::container::static_vector<double, 18>;
+using Losses = boost::container::small_vector<double, 18>;
 
 // A choice as dominance sees it.
 struct Contender {

@@ -26,7 +26,7 @@ class Sketch {
     const Limits& most = problem_.limits;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) AddGroup(g);
     if (IsPumped(configuration())) {
-      Add(PumpsOf(problem_), most.compressors, Pieces(FeedsOf(problem_)));
+      Add(PumpsOf(problem_, configuration()), most.compressors, Pieces(FeedsOf(problem_)));
       if (KeepsReservoir(configuration())) AddReservoirs();
     } else if (outline_.layout.own_regulators) {
       for (std::size_t g = 0; g < problem_.groups.size(); ++g) Add(parts.regulators, 1, Pieces());
@@ -38,7 +38,7 @@ class Sketch {
     if (configuration() == Configuration::kCo2) AddCo2();
     if (HasTank(configuration())) AddTanks();
     if (configuration() == Configuration::kTankAndPump)
-      Add(PumpsOf(problem_), most.compressors, Pieces());
+      Add(PumpsOf(problem_, configuration()), most.compressors, Pieces());
     if (configuration() != Configuration::kMains) AddBatteries();
     outline_.bound *= kRounding;
     return outline_;

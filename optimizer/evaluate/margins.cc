@@ -5,11 +5,12 @@
 #include "model/flow/scalar.h"
 #include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/evaluate.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kPaPerKpa = 1e3;
+constexpr double kPaPerKpa = 1e3, kLPerMinPerM3PerS = 6e4;
 
 template <class T>
 MarginOf<T> AtMost(std::string pointer, double limit, const T& achieved) {
@@ -19,6 +20,16 @@ MarginOf<T> AtMost(std::string pointer, double limit, const T& achieved) {
 template <class T>
 MarginOf<T> AtLeast(std::string pointer, double limit, const T& achieved) {
   return {std::move(pointer), limit, achieved, achieved / limit - 1.0};
+}
+
+template <class T>
+MarginOf<T> CompressedAirMargin(const Problem& problem, const Candidate& candidate) {
+  const model::Compressor& ejector =
+      PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
+  return AtMost<T>(
+      "/supply/mains/flow_l_per_min_anr_max",
+      kLPerMinPerM3PerS * problem.compressed_air.flow_max_m3_per_s,
+      T(kLPerMinPerM3PerS * CompressedAir(problem, ejector, candidate.compressor.quantity)));
 }
 
 // The source window keeps peaks within their limits (closing.h): who asks for the least margin
@@ -69,6 +80,8 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
     margins.push_back(AtMost<T>("/supply/tank_fill_kpa_gauge_max",
                                 (problem.tank_fill_max_pa - ambient_pa) / kPaPerKpa,
                                 T((filled.tank_fill_pa - ambient_pa) / kPaPerKpa)));
+  if (IsEjector(candidate.configuration) && std::isfinite(problem.compressed_air.flow_max_m3_per_s))
+    margins.push_back(CompressedAirMargin<T>(problem, candidate));
   const AmountsOf<T> total = TotalAmounts(problem, candidate, filled);
   if (std::isfinite(problem.mass_max_kg))
     margins.push_back(

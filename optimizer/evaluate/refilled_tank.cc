@@ -12,7 +12,7 @@ constexpr double kTolerance = 1e-9;        // of the fill
 constexpr double kAboveKept = 1.0 + 1e-4;  // a fill that is just what is kept decides nothing
 
 const model::Compressor& PumpOf(const Problem& problem, const Candidate& candidate) {
-  return PumpsOf(problem)[candidate.compressor.index];
+  return PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
 }
 
 double StopCurrent(const Problem& problem, const Candidate& candidate, double stop_pa) {

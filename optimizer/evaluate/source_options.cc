@@ -10,6 +10,7 @@ Option Candidate::*PlaceOf(Family family) {
   switch (family) {
     case Family::kCompressor:
     case Family::kVacuumPump:
+    case Family::kEjector:
       return &Candidate::compressor;
     case Family::kBattery:
       return &Candidate::battery;

@@ -43,11 +43,13 @@ Demand OfGroupPressure(const Problem& problem, std::size_t g) {
                   });
 }
 
-Demand OfMainsFlow(const Problem& problem) {
-  return OfNumber(
-      "/supply/mains/flow_l_per_min_anr_max", problem.mains.flow_max_m3_per_s / kLitrePerMinute,
-      kUnlimited, false,
-      [](Problem& p, double value) { p.mains.flow_max_m3_per_s = value * kLitrePerMinute; });
+// Of the wall that feeds actuators, or ejectors.
+Demand OfMainsFlow(const Problem& problem, Mains Problem::*mains) {
+  return OfNumber("/supply/mains/flow_l_per_min_anr_max",
+                  (problem.*mains).flow_max_m3_per_s / kLitrePerMinute, kUnlimited, false,
+                  [mains](Problem& p, double value) {
+                    (p.*mains).flow_max_m3_per_s = value * kLitrePerMinute;
+                  });
 }
 
 void AddPrices(const Problem& problem, std::vector<Demand>& list) {
@@ -71,14 +73,34 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
                       co2 = Configuration::kCo2, tank = Configuration::kTank,
                       direct = Configuration::kDirectPump, vacuum = Configuration::kVacuumPump,
                       direct_vacuum = Configuration::kDirectVacuumPump,
+                      ejector = Configuration::kEjector,
+                      direct_ejector = Configuration::kDirectEjector,
                       refilled = Configuration::kTankAndPump;
   add("/limits/compressors_max", &Limits::compressors,
-      {pump, direct, vacuum, direct_vacuum, refilled});
-  add("/limits/batteries_max", &Limits::batteries,
-      {pump, bottle, co2, tank, direct, vacuum, direct_vacuum, refilled});
+      {pump, direct, vacuum, direct_vacuum, refilled, ejector, direct_ejector});
+  if (problem.power.kind == PowerKind::kBattery)
+    add("/limits/batteries_max", &Limits::batteries,
+        {pump, bottle, co2, tank, direct, vacuum, direct_vacuum, refilled, ejector,
+         direct_ejector});
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
-  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum, refilled});
+  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum, refilled, ejector});
+}
+
+// What the robot gives; as many of its supplies there are not.
+void AddPower(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
+  if (!options.select) return;
+  const auto add = [&](const char* pointer, std::optional<double> Power::*most) {
+    if (problem.power.*most)
+      list.push_back({pointer,
+                      [most, select = options.select](Problem& p) {
+                        (p.power.*most).reset();
+                        p.parts = select(p);
+                      },
+                      std::nullopt});
+  };
+  add("/supply/power/energy_wh_max", &Power::energy_wh_max);
+  add("/supply/power/current_a_max", &Power::current_a_max);
 }
 
 void AddProducts(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
@@ -126,6 +148,7 @@ void EraseUnpriced(model::Parts& parts) {
   EraseUnpriced(parts.reservoirs);
   EraseUnpriced(parts.tanks);
   EraseUnpriced(parts.vacuum_pumps);
+  EraseUnpriced(parts.ejectors);
 }
 
 }  // namespace
@@ -145,8 +168,12 @@ std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options
   add("/duty/");
   if (problem.configurations.contains(Configuration::kMains) &&
       std::isfinite(problem.mains.flow_max_m3_per_s))
-    list.push_back(OfMainsFlow(problem));
+    list.push_back(OfMainsFlow(problem, &Problem::mains));
+  if (std::any_of(problem.configurations.begin(), problem.configurations.end(), IsEjector) &&
+      std::isfinite(problem.compressed_air.flow_max_m3_per_s))
+    list.push_back(OfMainsFlow(problem, &Problem::compressed_air));
   add("/supply/");
+  AddPower(problem, options, list);
   AddProducts(problem, options, list);
   AddPrices(problem, list);
   AddLimits(problem, list);

@@ -24,8 +24,9 @@ struct Demand {
 //   actuations                                                                1
 //   frequency_hz                       an eighth or less (requirements.h)
 //   limits/*_max                       16, the most that a request may allow
-//   supply/parts, require/FAMILY, exclude    as if it were not there (with SearchOptions::select)
-//   prices                             unknown prices count as 0
+//   power/energy_wh_max, power/current_a_max, supply/parts, require/FAMILY, exclude    as if it
+//   were not there (with SearchOptions::select) prices                             unknown prices
+//   count as 0
 // Never dropped: volumes, operating pressures, counts, lengths, configurations.
 std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options);
 

@@ -61,6 +61,7 @@ Problem Tightened(Problem problem, const Room& room) {
   }
   problem.frequency_hz *= 1.0 + room.rate;
   problem.mains.flow_max_m3_per_s *= 1.0 - room.rate;
+  problem.compressed_air.flow_max_m3_per_s *= 1.0 - room.rate;
   for (double* most : {&problem.mass_max_kg, &problem.volume_max_l, &problem.cost_max_eur})
     *most *= 1.0 - room.amounts;
   problem.actuations *= 1.0 + room.store;

@@ -60,6 +60,7 @@ Problem OfKind(const Problem& problem, const DesignKinds& kinds, const Kind& kin
   };
   keep(own.parts.compressors, Family::kCompressor, last);
   keep(own.parts.vacuum_pumps, Family::kVacuumPump, last);
+  keep(own.parts.ejectors, Family::kEjector, last);
   keep(own.parts.cylinders, Family::kCylinder, first);
   keep(own.parts.co2, Family::kCo2, first);
   keep(own.parts.tanks, Family::kTank, first);

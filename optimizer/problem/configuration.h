@@ -7,6 +7,7 @@ namespace plenum::optimizer {
 // kDirectPump: pumps without a reservoir that fill one group after another (candidate.h).
 // kVacuumPump, kDirectVacuumPump: the same two of evacuated actuators (Evacuated() below).
 // kTankAndPump: a tank filled beforehand that a pump goes on filling (evaluate/refill.h).
+// kEjector, kDirectEjector: as vacuum pumps, driven by compressed air from the wall (pump_feed.h).
 enum class Configuration {
   kCylinder,
   kCo2,
@@ -16,9 +17,11 @@ enum class Configuration {
   kDirectPump,
   kVacuumPump,
   kDirectVacuumPump,
-  kTankAndPump
+  kTankAndPump,
+  kEjector,
+  kDirectEjector
 };
-inline constexpr int kConfigurations = 9;
+inline constexpr int kConfigurations = 11;
 // Of actuators under pressure, in the order in which people are told of them.
 inline constexpr Configuration kPressureConfigurations[] = {
     Configuration::kCylinder,  Configuration::kCo2,  Configuration::kCompressor,
@@ -29,11 +32,13 @@ const char* Name(Configuration configuration);
 // Whether pumps keep a reservoir at its pressure, feed the lines themselves, or do either; and
 // whether there is a tank filled beforehand, and any pump.
 inline bool KeepsReservoir(Configuration configuration) {
-  return configuration == Configuration::kCompressor || configuration == Configuration::kVacuumPump;
+  return configuration == Configuration::kCompressor ||
+         configuration == Configuration::kVacuumPump || configuration == Configuration::kEjector;
 }
 inline bool IsDirect(Configuration configuration) {
   return configuration == Configuration::kDirectPump ||
-         configuration == Configuration::kDirectVacuumPump;
+         configuration == Configuration::kDirectVacuumPump ||
+         configuration == Configuration::kDirectEjector;
 }
 inline bool IsPumped(Configuration configuration) {
   return KeepsReservoir(configuration) || IsDirect(configuration);
@@ -44,9 +49,13 @@ inline bool HasTank(Configuration configuration) {
 inline bool HasPump(Configuration configuration) {
   return IsPumped(configuration) || configuration == Configuration::kTankAndPump;
 }
+// Pumps without a motor.
+inline bool IsEjector(Configuration configuration) {
+  return configuration == Configuration::kEjector || configuration == Configuration::kDirectEjector;
+}
 inline bool IsVacuum(Configuration configuration) {
   return configuration == Configuration::kVacuumPump ||
-         configuration == Configuration::kDirectVacuumPump;
+         configuration == Configuration::kDirectVacuumPump || IsEjector(configuration);
 }
 
 }  // namespace plenum::optimizer

@@ -52,6 +52,13 @@ FamilySpec Spec(Family family, const char* name, std::span<const PartField> fiel
   return spec;
 }
 
+Place PumpsIn(std::vector<Configuration> sources) {
+  return {.place = 6,
+          .sources = std::move(sources),
+          .most = &Limits::compressors,
+          .kind_role = KindRole::kSource};
+}
+
 std::vector<Family> InOrder(std::vector<Family> families) {
   std::sort(families.begin(), families.end(),
             [](Family a, Family b) { return SpecOf(a).place < SpecOf(b).place; });
@@ -70,10 +77,7 @@ std::vector<FamilySpec> OwnFamilies() {
       Spec<&Parts::valves>(Family::kValve, "valve", kValveFields,
                            {.place = 0, .in_line = true, .kind_role = KindRole::kValve}),
       Spec<&Parts::compressors>(Family::kCompressor, "compressor", kCompressorFields,
-                                {.place = 6,
-                                 .sources = {kCompressor, kDirectPump, kTankAndPump},
-                                 .most = &Limits::compressors,
-                                 .kind_role = KindRole::kSource}),
+                                PumpsIn({kCompressor, kDirectPump, kTankAndPump})),
       Spec<&Parts::cylinders>(Family::kCylinder, "cylinder", kCylinderFields,
                               {.place = 4,
                                .sources = {kCylinder},
@@ -86,19 +90,20 @@ std::vector<FamilySpec> OwnFamilies() {
                          .most = &Limits::co2,
                          .by_need = true,
                          .kind_role = KindRole::kSource}),
-      Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
-                              {.place = 7,
-                               .sources = {kCylinder, kCo2, kCompressor, kTank, kDirectPump,
-                                           kVacuumPump, kDirectVacuumPump, kTankAndPump},
-                               .most = &Limits::batteries,
-                               .by_need = true}),
+      Spec<&Parts::batteries>(
+          Family::kBattery, "battery", kBatteryFields,
+          {.place = 7,
+           .sources = {kCylinder, kCo2, kCompressor, kTank, kDirectPump, kVacuumPump,
+                       kDirectVacuumPump, kTankAndPump, kEjector, kDirectEjector},
+           .most = &Limits::batteries,
+           .by_need = true}),
       Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,
                                {.place = 3,
                                 .sources = {kCylinder, kCo2, kMains, kTank, kTankAndPump},
                                 .kind_role = KindRole::kRegulator}),
       Spec<&Parts::reservoirs>(Family::kReservoir, "reservoir", kReservoirFields,
                                {.place = 8,
-                                .sources = {kCompressor, kVacuumPump},
+                                .sources = {kCompressor, kVacuumPump, kEjector},
                                 .most = &Limits::reservoirs,
                                 .by_need = true,
                                 .made_to_measure = true}),
@@ -109,12 +114,11 @@ std::vector<FamilySpec> OwnFamilies() {
                            .by_need = true,
                            .kind_role = KindRole::kSource}),
       Spec<&Parts::vacuum_pumps>(Family::kVacuumPump, "vacuum_pump", kVacuumPumpFields,
-                                 {.place = 6,
-                                  .sources = {kVacuumPump, kDirectVacuumPump},
-                                  .most = &Limits::compressors,
-                                  .kind_role = KindRole::kSource}),
+                                 PumpsIn({kVacuumPump, kDirectVacuumPump})),
       Spec<&Parts::manifolds>(Family::kManifold, "manifold", kManifoldFields,
                               {.place = 9, .joins = true}),
+      Spec<&Parts::ejectors>(Family::kEjector, "ejector", kEjectorFields,
+                             PumpsIn({kEjector, kDirectEjector})),
   };
 }
 
@@ -128,7 +132,8 @@ int FamilySize(const model::Parts& parts, Family family) {
 
 int ChoicesIn(const Problem& problem, Configuration configuration, Family family) {
   const int all = FamilySize(problem.parts, family);
-  const bool any_voltage = family == Family::kBattery && !HasPump(configuration) &&
+  const bool any_voltage = family == Family::kBattery &&
+                           (!HasPump(configuration) || IsEjector(configuration)) &&
                            problem.power.kind != PowerKind::kBattery;
   return any_voltage ? std::min(all, 1) : all;
 }

@@ -33,6 +33,8 @@ inline constexpr auto kReservoir = &ValueIn<&model::Parts::reservoirs, get>;
 template <auto get>
 inline constexpr auto kVacuumPump = &ValueIn<&model::Parts::vacuum_pumps, get>;
 template <auto get>
+inline constexpr auto kEjector = &ValueIn<&model::Parts::ejectors, get>;
+template <auto get>
 inline constexpr auto kManifold = &ValueIn<&model::Parts::manifolds, get>;
 template <auto get>
 inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
@@ -142,6 +144,14 @@ inline constexpr PartField kVacuumPumpFields[] = {
     {.name = "vacuum_max_kpa_gauge",
      .use = Use::kRule,
      .of = read::kVacuumPump<&read::PumpPressure>},
+};
+
+inline constexpr PartField kEjectorFields[] = {
+    {.name = "air_consumption_l_per_min_anr",
+     .use = Use::kLess,
+     .of = read::kEjector<&model::Compressor::air_consumption_m3_per_s>,
+     .pieces = Pieces::kSum},
+    {.name = "vacuum_max_kpa_gauge", .use = Use::kRule, .of = read::kEjector<&read::PumpPressure>},
 };
 
 // The gas that a bottle gives depends on the regulators behind it: a rule of the family.

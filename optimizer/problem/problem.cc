@@ -24,6 +24,10 @@ const char* Name(Configuration configuration) {
       return "vacuum_pump";
     case Configuration::kDirectVacuumPump:
       return "direct_vacuum_pump";
+    case Configuration::kEjector:
+      return "ejector";
+    case Configuration::kDirectEjector:
+      return "direct_ejector";
     case Configuration::kTankAndPump:
       return "tank_and_pump";
   }

@@ -43,7 +43,8 @@ enum class Family {
   kReservoir,
   kTank,  // a reservoir that is filled beforehand
   kVacuumPump,
-  kManifold  // of joints.h: no choice
+  kManifold,  // of joints.h: no choice
+  kEjector
 };
 const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
 
@@ -129,6 +130,7 @@ struct Problem {
   double fall_fraction = 0.05;
   std::set<Configuration> configurations;
   Mains mains;
+  Mains compressed_air;  // that ejectors take; pressure 0: there is none
   Regulation regulation = Regulation::kShared;
   PumpFeed pump_feed = PumpFeed::kShared;  // others: all configurations are direct (IsDirect)
   Power power;
@@ -161,11 +163,23 @@ inline bool Evacuated(const Problem& problem) {
 }
 
 // What pumps there are to choose from.
-inline const std::vector<model::Compressor>& PumpsOf(const Problem& problem) {
-  return Evacuated(problem) ? problem.parts.vacuum_pumps : problem.parts.compressors;
-}
 inline Family PumpFamily(Configuration configuration) {
-  return IsVacuum(configuration) ? Family::kVacuumPump : Family::kCompressor;
+  return IsEjector(configuration)  ? Family::kEjector
+         : IsVacuum(configuration) ? Family::kVacuumPump
+                                   : Family::kCompressor;
+}
+inline const std::vector<model::Compressor>& PumpsIn(const model::Parts& parts, Family family) {
+  return family == Family::kEjector      ? parts.ejectors
+         : family == Family::kVacuumPump ? parts.vacuum_pumps
+                                         : parts.compressors;
+}
+inline const std::vector<model::Compressor>& PumpsOf(const Problem& problem,
+                                                     Configuration configuration) {
+  return PumpsIn(problem.parts, PumpFamily(configuration));
+}
+inline bool IsPump(Family family) {
+  return family == Family::kCompressor || family == Family::kVacuumPump ||
+         family == Family::kEjector;
 }
 
 // A pressure as people count it, kPa gauge, below 0 under vacuum, and back.

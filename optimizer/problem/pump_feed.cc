@@ -28,9 +28,7 @@ int FeedsOf(const Problem& problem) {
   return actuators;
 }
 
-int FeedsOf(const Problem& problem, Family family) {
-  return family == Family::kCompressor || family == Family::kVacuumPump ? FeedsOf(problem) : 1;
-}
+int FeedsOf(const Problem& problem, Family family) { return IsPump(family) ? FeedsOf(problem) : 1; }
 
 int FeedsAtOnce(const Problem& problem) {
   if (problem.pump_feed == PumpFeed::kShared) return 1;

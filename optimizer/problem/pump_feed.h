@@ -22,6 +22,19 @@ int FeedsOf(const Problem& problem);
 // How many times a piece of a family is bought where a design has one a feed: of its pumps.
 int FeedsOf(const Problem& problem, Family family);
 
+// Compressed air that so many ejectors for each feed take, m³ ANR/s; 0 of pumps with a motor. They
+// are taken to blow all the while, at their supply pressure: what a valve in their air would save
+// is left out.
+inline double CompressedAir(const Problem& problem, const model::Compressor& pump, int pieces) {
+  return pump.air_consumption_m3_per_s * pieces * FeedsOf(problem);
+}
+// Whether the wall gives it.
+inline bool AirSuffices(const Problem& problem, const model::Compressor& pump, int pieces) {
+  constexpr double kRounding = 1.0 + 1e-12;
+  return CompressedAir(problem, pump, pieces) <=
+         problem.compressed_air.flow_max_m3_per_s * kRounding;
+}
+
 // Most feeds that may run at the same time, by the windows of their strokes (gait.h).
 int FeedsAtOnce(const Problem& problem);
 

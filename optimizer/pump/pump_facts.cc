@@ -100,9 +100,9 @@ PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& cu
   return facts;
 }
 
-double HighestPumpPressure(const Problem& problem) {
+double HighestPumpPressure(const Problem& problem, Configuration configuration) {
   double highest_pa = problem.ambient.pressure_pa * 1.01;
-  for (const model::Compressor& compressor : PumpsOf(problem))
+  for (const model::Compressor& compressor : PumpsOf(problem, configuration))
     highest_pa = std::max(highest_pa, model::HighestPressure(compressor.curve));
   return std::clamp(problem.source_pressure_max_pa, 1.01 * problem.ambient.pressure_pa, highest_pa);
 }

@@ -107,7 +107,7 @@ inline constexpr int kCoarseCells = 32;
 struct CoarsePump {
   std::array<double, kCoarseCells> energy_j_per_m3{}, seconds_per_m3{}, current_a{};
 };
-double HighestPumpPressure(const Problem& problem);
+double HighestPumpPressure(const Problem& problem, Configuration configuration);
 CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
                           const model::CompressorCurve& curve);
 CoarsePump Several(CoarsePump one, int pumps);

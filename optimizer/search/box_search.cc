@@ -1,6 +1,7 @@
 #include "optimizer/search/box_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "optimizer/bounds/leaf_sizing.h"
@@ -9,7 +10,6 @@
 #include "optimizer/search/configurations.h"
 #include "optimizer/search/dive.h"
 #include "optimizer/search/first_designs.h"
-#include "optimizer/search/in_turns.h"
 #include "optimizer/search/ranking.h"
 #include "optimizer/search/recorder.h"
 #include "optimizer/search/search_node.h"
@@ -22,9 +22,8 @@ namespace {
 constexpr double kProgressIntervalS = 0.2;
 // After the end designs found before are still confirmed, one at least and others for so long.
 constexpr double kGraceS = 0.1;
-constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;     // of the time limit
-constexpr double kFirstFrom = 0.01, kFirstShare = 0.1;  // the same
-constexpr double kTurnsShare = 0.15;                    // of it, for the groups in turns
+constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
+constexpr double kFirstFrom = 0.01;                  // the same
 // Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a pump's source
 // pressure with several groups, which may take simulations.
 constexpr int kStepsPerRefine = 32, kStepsPerSimulation = 3000;
@@ -53,7 +52,7 @@ class BoxSearch {
   Listed List() {
     lists_ = true;
     Enumerate();
-    Listed listed{{}, !stopped() && proof_.undecided == 0, steps_};
+    Listed listed{{}, !stopped() && std::isinf(undecided_bound_), steps_};
     for (const Found& found : ranking_.list()) {
       if (static_cast<int>(listed.combinations.size()) == problem_.count) break;
       listed.combinations.push_back(
@@ -252,42 +251,24 @@ class BoxSearch {
         {std::move(node->box), node->bounds, leaf, std::move(key), node->record, nullptr, {}});
   }
 
+  // Found by a dive alone it has no record yet, and its box is still open.
   void Undecided(double bound, int record) {
-    ++proof_.undecided;
+    if (record >= 0 || !options_.record) ++proof_.undecided;
     undecided_bound_ = std::min(undecided_bound_, bound);
     if (record >= 0) recorder_.Close(record, {.kind = BoxKind::kUndecided, .bound = bound});
   }
 
   // A leaf whose best settings are not proved may be better than the place that it gets.
   void CountGap(const Leaf& leaf) {
-    if (leaf.lower_bound < leaf.objective * (1.0 - kTie)) Undecided(leaf.lower_bound, -1);
+    if (leaf.lower_bound < leaf.objective * (1.0 - kTie))
+      undecided_bound_ = std::min(undecided_bound_, leaf.lower_bound);
   }
 
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
     const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
     const auto due = Due(problem_, configurations_.planted(), slow, sought_);
-    const double share = kFirstShare / static_cast<double>(due.size());
-    const double turns_share = kTurnsShare / static_cast<double>(due.size());
-    for (Bounds* bounds : due) {
-      if (std::vector<Box> likely = LikeInTurns(*bounds, turns_share); !likely.empty())
-        watch_.DiveFor(turns_share, [&] {
-          SearchLikely(problem_, *bounds, std::move(likely), bench_.stop, ranking_);
-        });
-      watch_.DiveFor(share, [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
-    }
-  }
-
-  // Boxes that designs of the groups in turns suggest, in this share of the time limit.
-  std::vector<Box> LikeInTurns(const Bounds& bounds, double share) const {
-    const Configuration configuration = bounds.plan().configuration;
-    if (!IsCheaperInTurns(problem_, configuration)) return {};
-    SearchOptions options = options_;
-    options.record = false;
-    options.progress = {};
-    options.time_limit_s *= share;
-    return BoxesLike(problem_, bounds,
-                     SearchBoxes(InTurns(problem_, configuration), options).designs);
+    SeekFirst(problem_, due, options_, SearchBoxes, watch_, bench_.stop, ranking_);
   }
 
   // With a third of the time gone good designs are sought by depth first, in case time runs out.
@@ -333,7 +314,8 @@ class BoxSearch {
         ++proof_.simulated;
         Candidate candidate = found.bounds->CandidateOf(found.box);
         candidate.bench = &report_bench_;
-        std::optional<Design> design = MakeDesign(problem_, candidate, found.leaf, !Stopped());
+        std::optional<Design> design =
+            MakeDesign(problem_, candidate, found.leaf, [this] { return Stopped(); });
         if (!design && report_bench_.stopped()) {  // the rest is left out, and bounds the list
           undecided_bound_ = std::min(undecided_bound_, ranking_.LeaveOutFrom(i));
           return false;

@@ -14,6 +14,8 @@
 namespace plenum::optimizer {
 namespace {
 
+// Of the time limit: for the groups in turns and again for what they suggest, and for the rest.
+constexpr double kTurnsShare = 0.15, kFirstShare = 0.1;
 constexpr int kPressures = 12;                             // of the source, that are tried
 constexpr double kNodeShares[] = {0.97, 0.85, 0.7, 0.55};  // of it, at the node
 constexpr int kRounds = 4;                                 // of improvements
@@ -147,6 +149,21 @@ void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::functio
     for (int g = 0; g <= groups && !stop(); ++g)
       Exchange(walk, Box(ranking.list().front().box), g, problem.count);
     if (!(ranking.list().front().leaf.objective < before)) return;
+  }
+}
+
+void SeekFirst(const Problem& problem, const std::vector<Bounds*>& due,
+               const SearchOptions& options, const Solve& solve, Watch& watch,
+               const std::function<bool()>& stop, Ranking& ranking) {
+  const double turns_share = kTurnsShare / static_cast<double>(due.size());
+  SearchOptions own = options;
+  own.time_limit_s *= turns_share;
+  for (Bounds* bounds : due) {
+    std::vector<Box> likely = LikeInTurns(problem, *bounds, own, solve);
+    watch.DiveFor(turns_share,
+                  [&] { SearchLikely(problem, *bounds, std::move(likely), stop, ranking); });
+    watch.DiveFor(kFirstShare / static_cast<double>(due.size()),
+                  [&] { FindFirstDesigns(problem, *bounds, stop, ranking); });
   }
 }
 

@@ -13,7 +13,9 @@
 #include <set>
 #include <vector>
 
+#include "optimizer/search/in_turns.h"
 #include "optimizer/search/ranking.h"
+#include "optimizer/search/watch.h"
 
 namespace plenum::optimizer {
 
@@ -27,6 +29,12 @@ struct Sought {
 std::vector<Bounds*> Due(const Problem& problem,
                          const std::vector<std::unique_ptr<Bounds>>& planted, bool slow,
                          Sought& sought);
+
+// In each of these plans: the boxes that designs in turns suggest (in_turns.h), by the search
+// `solve`, and then as FindFirstDesigns(), for shares of the time limit.
+void SeekFirst(const Problem& problem, const std::vector<Bounds*>& due,
+               const SearchOptions& options, const Solve& solve, Watch& watch,
+               const std::function<bool()>& stop, Ranking& ranking);
 
 // Both add what they find to the ranking, until `stop` says so. The first looks into boxes, not
 // assessed, that are likely to hold designs, for one in each.

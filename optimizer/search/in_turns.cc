@@ -72,4 +72,13 @@ std::vector<Box> BoxesLike(const Problem& problem, const Bounds& bounds,
   return all;
 }
 
+std::vector<Box> LikeInTurns(const Problem& problem, const Bounds& bounds, SearchOptions options,
+                             const Solve& solve) {
+  const Configuration configuration = bounds.plan().configuration;
+  if (!IsCheaperInTurns(problem, configuration)) return {};
+  options.record = false;
+  options.progress = {};
+  return BoxesLike(problem, bounds, solve(InTurns(problem, configuration), options).designs);
+}
+
 }  // namespace plenum::optimizer

@@ -6,6 +6,7 @@
 #ifndef PLENUM_OPTIMIZER_SEARCH_IN_TURNS_H_
 #define PLENUM_OPTIMIZER_SEARCH_IN_TURNS_H_
 
+#include <functional>
 #include <vector>
 
 #include "optimizer/bounds/box.h"
@@ -16,6 +17,10 @@ namespace plenum::optimizer {
 bool IsCheaperInTurns(const Problem& problem, Configuration configuration);
 // The problem of this configuration alone, its groups in turns without gaits, and a short list.
 Problem InTurns(const Problem& problem, Configuration configuration);
+// Boxes like its designs, as the search `solve` finds them; none where it would not be cheaper.
+using Solve = std::function<Answer(const Problem&, const SearchOptions&)>;
+std::vector<Box> LikeInTurns(const Problem& problem, const Bounds& bounds, SearchOptions options,
+                             const Solve& solve);
 
 // Boxes of a plan, not assessed, with the parts of each design: all but the battery, then its lines
 // with any source, then its source with any lines. What the plan has left out stays open.

@@ -188,7 +188,8 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
     if (SmallestMargin(problem, candidate, point, simulated) >= 0.0) evaluation = simulated;
     return true;
   }
-  const double duty_max = PumpsOf(problem)[candidate.compressor.index].duty_max;
+  const double duty_max =
+      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].duty_max;
   return strokes.pump_on_s * problem.frequency_hz <= duty_max * (1.0 + kConfirmTolerance);
 }
 
@@ -253,13 +254,20 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
 }
 
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
-                                 const Leaf& given, bool settle) {
+                                 const Leaf& given, const std::function<bool()>& late) {
   Leaf leaf = given;
-  if (!leaf.lowest && settle)
-    if (const Leaf sized = SizeAtVolume(problem, candidate, leaf.point.reservoir_m3);
-        sized.status == LeafStatus::kFeasible)
-      leaf = sized;
-  OperatingPoint point = settle ? Settle(problem, candidate, leaf) : leaf.point;
+  OperatingPoint point = leaf.point;
+  if (!late || !late()) {
+    Workbench bench = candidate.bench ? *candidate.bench : Workbench{};
+    if (late) bench.stop = late;
+    Candidate settled = candidate;
+    settled.bench = &bench;
+    if (!leaf.lowest)
+      if (const Leaf sized = SizeAtVolume(problem, settled, leaf.point.reservoir_m3);
+          sized.status == LeafStatus::kFeasible)
+        leaf = sized;
+    point = Settle(problem, settled, leaf);
+  }
   Evaluation evaluation = Evaluate(problem, candidate, point);
   if (!Confirm(problem, candidate, point, evaluation)) {
     const std::optional<OperatingPoint> near = ConfirmNear(problem, candidate, leaf, evaluation);

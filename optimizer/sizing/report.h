@@ -2,6 +2,7 @@
 #ifndef PLENUM_OPTIMIZER_SIZING_REPORT_H_
 #define PLENUM_OPTIMIZER_SIZING_REPORT_H_
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,9 +12,10 @@ namespace plenum::optimizer {
 
 // None where the simulator, run on the whole rig in its periodic state, does not confirm that every
 // requirement is met: the design is then not listed but counted as undecided.
-// `settle`: choose the settings that the objective leaves free (sizing.h), else keep the leaf's.
+// The settings that the objective leaves free are chosen (sizing.h) until `late`, if given, says
+// so; after that the leaf's are kept.
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
-                                 const Leaf& given, bool settle = true);
+                                 const Leaf& given, const std::function<bool()>& late = {});
 
 // The rows of its parts list at a point.
 std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate,

@@ -205,7 +205,8 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
                .reservoirs = Kept(all.reservoirs, ids),
                .tanks = Kept(all.tanks, ids),
                .vacuum_pumps = Kept(all.vacuum_pumps, ids),
-               .manifolds = Kept(all.manifolds, ids)};
+               .manifolds = Kept(all.manifolds, ids),
+               .ejectors = Kept(all.ejectors, ids)};
   return own;
 }
 

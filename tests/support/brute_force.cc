@@ -84,7 +84,12 @@ bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
 
 bool VoltagesMatch(const Problem& problem, const Candidate& candidate) {
   const double pack_v = problem.parts.batteries[candidate.battery.index].nominal_voltage_v;
-  const double pump_v = PumpsOf(problem)[candidate.compressor.index].curve.voltage_v;
+  const model::Compressor& pump =
+      PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
+  if (IsEjector(candidate.configuration))
+    return candidate.compressor.quantity * FeedsByHand(problem) * pump.air_consumption_m3_per_s <=
+           problem.compressed_air.flow_max_m3_per_s;
+  const double pump_v = pump.curve.voltage_v;
   return std::abs(pack_v - pump_v) <= 0.15 * pump_v * (1.0 + 1e-9);
 }
 
@@ -95,8 +100,8 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
   const std::vector<Option> batteries =
       Options(problem, Family::kBattery, parts.batteries, problem.limits.batteries);
   const auto pumps = [&] {
-    return Options(problem, PumpFamily(candidate.configuration), PumpsOf(problem),
-                   problem.limits.compressors);
+    return Options(problem, PumpFamily(candidate.configuration),
+                   PumpsOf(problem, candidate.configuration), problem.limits.compressors);
   };
   if (IsDirect(candidate.configuration)) {
     for (const Option& compressor : pumps())
@@ -168,10 +173,10 @@ long long Combinations(const Problem& problem, Configuration configuration) {
                (group.fittings_per_line > 0 ? count(parts.fittings, 1) : 1);
   const optimizer::Limits& limits = problem.limits;
   if (IsDirect(configuration))
-    return product * count(PumpsOf(problem), limits.compressors) *
+    return product * count(PumpsOf(problem, configuration), limits.compressors) *
            count(parts.batteries, limits.batteries);
   if (KeepsReservoir(configuration))
-    return product * count(PumpsOf(problem), limits.compressors) *
+    return product * count(PumpsOf(problem, configuration), limits.compressors) *
            count(parts.batteries, limits.batteries) *
            (count(parts.reservoirs, limits.reservoirs) + (CustomAllowed(problem) ? 1 : 0));
   if (configuration == Configuration::kTank)
@@ -181,7 +186,8 @@ long long Combinations(const Problem& problem, Configuration configuration) {
   if (configuration == Configuration::kMains) return product;
   if (configuration == Configuration::kTankAndPump)
     return product * count(parts.tanks, limits.reservoirs) *
-           count(PumpsOf(problem), limits.compressors) * count(parts.batteries, limits.batteries);
+           count(PumpsOf(problem, configuration), limits.compressors) *
+           count(parts.batteries, limits.batteries);
   return product * count(parts.batteries, limits.batteries) *
          (configuration == Configuration::kCylinder ? count(parts.cylinders, limits.cylinders)
                                                     : count(parts.co2, limits.co2));
@@ -232,7 +238,7 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   if (HasTank(candidate.configuration)) add(parts.tanks, candidate.bottle);
   optimizer::Option pumps = candidate.compressor;
   pumps.quantity *= FeedsByHand(problem);
-  add(PumpsOf(problem), pumps);
+  add(PumpsOf(problem, candidate.configuration), pumps);
   add(parts.batteries, candidate.battery);
   add(parts.reservoirs, candidate.reservoir);
   if (candidate.reservoir.index == optimizer::kCustom) key.emplace_back("custom", 1);

@@ -351,7 +351,8 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
       break;
     case Family::kCompressor:
     case Family::kVacuumPump:
-      take(PumpsOf(problem)[index].basics, 0.0);
+    case Family::kEjector:
+      take(PumpsIn(parts, family)[index].basics, 0.0);
       break;
     case Family::kBattery:
       take(parts.batteries[index].basics, 0.0);

@@ -58,7 +58,8 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
   Assembly source;
   source.configuration = plan_.configuration;
   if (HasPump(plan_.configuration)) {
-    source.compressor = &PumpsOf(problem_)[item.part];
+    source.compressor = &PumpsOf(problem_, plan_.configuration)[item.part];
+    source.compressors = item.quantity;
     return Any(plan_, ranges, SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& pack) {
       source.battery = &parts.batteries[pack.part];
       return Fit(problem_, source);

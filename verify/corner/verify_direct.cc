@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
+#include "optimizer/problem/pump_feed.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
@@ -38,7 +39,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
   const PumpCells& cells = choices_.CellsIn(compressors);
   const ProofItem& first = plan_.slots[compressor_].choices[compressors.first];
   const bool single = compressors.second == compressors.first + 1;
-  const model::CompressorCurve& curve = PumpsOf(problem_)[first.part].curve;
+  const model::CompressorCurve& curve = PumpsOf(problem_, plan_.configuration)[first.part].curve;
   const int g = unit.group, count = unit.count / unit.feeds;  // of one feed
   const double share = static_cast<double>(count) / problem_.groups[g].count;
   const double highest_pa = std::min(cells.highest_pa, line.source_high_pa);
@@ -109,7 +110,7 @@ bool DirectPumps::Suits(const Ranges& ranges, const std::vector<const BestLine*>
 // Of those that drive some pump of the box and give its current up to this pressure and the coils'.
 double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double node_pa,
                                  double coil_w) const {
-  const std::vector<model::Compressor>& compressors = PumpsOf(problem_);
+  const std::vector<model::Compressor>& compressors = PumpsOf(problem_, plan_.configuration);
   double least = kUnlimited;
   for (int i = ranges[battery_].first; i < ranges[battery_].second; ++i) {
     const ProofItem& item = plan_.slots[battery_].choices[i];
@@ -122,7 +123,8 @@ double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double n
     for (int c = ranges[compressor_].first; c < ranges[compressor_].second; ++c) {
       const ProofItem& pump = plan_.slots[compressor_].choices[c];
       const model::CompressorCurve& curve = compressors[pump.part].curve;
-      if (!model::VoltageMatches(pack.nominal_voltage_v, curve.voltage_v) ||
+      if (!AirSuffices(problem_, compressors[pump.part], pump.quantity) ||
+          !model::VoltageMatches(pack.nominal_voltage_v, curve.voltage_v) ||
           running_ * pump.quantity *
                   model::LargestCurrent(curve, problem_.ambient.pressure_pa, node_pa) >
               pumps_a)

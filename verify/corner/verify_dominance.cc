@@ -80,12 +80,12 @@ bool GivesMore(const Problem& problem, const Bottle& a, int count_a, const Bottl
          Most(Gas(problem, a, count_a, high_pa), Gas(problem, b, count_b, high_pa));
 }
 
-bool Drives(const Problem& problem, const model::Battery& a, const model::Battery& b) {
-  return std::all_of(PumpsOf(problem).begin(), PumpsOf(problem).end(),
-                     [&](const model::Compressor& pump) {
-                       return !model::VoltageMatches(b.nominal_voltage_v, pump.curve.voltage_v) ||
-                              model::VoltageMatches(a.nominal_voltage_v, pump.curve.voltage_v);
-                     });
+bool Drives(const std::vector<model::Compressor>& pumps, const model::Battery& a,
+            const model::Battery& b) {
+  return std::all_of(pumps.begin(), pumps.end(), [&](const model::Compressor& pump) {
+    return !model::VoltageMatches(b.nominal_voltage_v, pump.curve.voltage_v) ||
+           model::VoltageMatches(a.nominal_voltage_v, pump.curve.voltage_v);
+  });
 }
 
 // What no table says: gas of bottles, pumps in parallel, which pumps a battery drives.
@@ -97,9 +97,10 @@ bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, c
     return GivesMore(problem, parts.cylinders[i], n, parts.cylinders[j], m);
   if (family == Family::kCo2) return GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
   if (family == PumpFamily(plan.configuration))
-    return n == m && PumpsOf(problem)[i].curve == PumpsOf(problem)[j].curve;
+    return n == m && PumpsOf(problem, plan.configuration)[i].curve ==
+                         PumpsOf(problem, plan.configuration)[j].curve;
   if (family == Family::kBattery && HasPump(plan.configuration))
-    return Drives(problem, parts.batteries[i], parts.batteries[j]);
+    return Drives(PumpsOf(problem, plan.configuration), parts.batteries[i], parts.batteries[j]);
   return true;
 }
 

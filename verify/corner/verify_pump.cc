@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
+#include "optimizer/problem/pump_feed.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_finding.h"
 
@@ -56,10 +57,12 @@ const Packs& Pumps::PacksIn(Range compressors, Range batteries) {
     const ProofItem& item = plan_.slots[battery_].choices[i];
     const model::Battery& battery = problem_.parts.batteries[item.part];
     bool drives = false;
-    for (int c = compressors.first; c < compressors.second && !drives; ++c)
-      drives = model::VoltageMatches(
-          battery.nominal_voltage_v,
-          PumpsOf(problem_)[plan_.slots[compressor_].choices[c].part].curve.voltage_v);
+    for (int c = compressors.first; c < compressors.second && !drives; ++c) {
+      const ProofItem& pumps = plan_.slots[compressor_].choices[c];
+      const model::Compressor& pump = PumpsOf(problem_, plan_.configuration)[pumps.part];
+      drives = AirSuffices(problem_, pump, pumps.quantity) &&
+               model::VoltageMatches(battery.nominal_voltage_v, pump.curve.voltage_v);
+    }
     if (drives && item.quantity * battery.current_max_a * kSlack >= current_a)
       packs.push_back(
           {item.quantity * model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v),

@@ -23,9 +23,10 @@ double ContentPerVolume(const Problem& problem) {
 
 PumpChoices::PumpChoices(const Problem& problem, const ProofPlan& plan)
     : problem_(problem),
+      pumps_(PumpsOf(problem, plan.configuration)),
       compressor_(SlotOf(plan, PumpFamily(plan.configuration), -1)),
       highest_pa_(1.01 * problem.ambient.pressure_pa) {
-  for (const model::Compressor& compressor : PumpsOf(problem))
+  for (const model::Compressor& compressor : pumps_)
     highest_pa_ = std::max(highest_pa_, model::HighestPressure(compressor.curve));
   const double ambient_pa = problem.ambient.pressure_pa;
   for (std::size_t cell = 0; cell <= kPumpCells; ++cell)
@@ -36,7 +37,7 @@ PumpChoices::PumpChoices(const Problem& problem, const ProofPlan& plan)
 
 // Delivery falls with pressure: a cell's lower end has the most.
 PumpCells PumpChoices::CellsOf(const ProofItem& item) const {
-  const model::Compressor& compressor = PumpsOf(problem_)[item.part];
+  const model::Compressor& compressor = pumps_[item.part];
   const model::CompressorCurve& curve = compressor.curve;
   PumpCells cells;
   for (std::size_t i = 0; i < kPumpCells; ++i) {

@@ -42,6 +42,7 @@ class PumpChoices {
   PumpCells CellsOf(const ProofItem& item) const;
 
   const Problem& problem_;
+  const std::vector<model::Compressor>& pumps_;
   int compressor_;                    // slot
   double highest_pa_;                 // of any compressor
   std::vector<double> pressures_pa_;  // of cells

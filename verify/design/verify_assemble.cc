@@ -4,6 +4,7 @@
 
 #include "model/flow/tube.h"
 #include "model/physics/storage.h"
+#include "optimizer/problem/pump_feed.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_families.h"
@@ -165,7 +166,8 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   join_pieces(Family::kCylinder, parts.cylinders, a.cylinder, a.bottles);
   join_pieces(Family::kCo2, parts.co2, a.co2, a.bottles);
   join_pieces(Family::kTank, parts.tanks, a.tank, a.tanks);
-  join_pieces(PumpFamily(a.configuration), PumpsOf(problem), a.compressor, a.compressors);
+  join_pieces(PumpFamily(a.configuration), PumpsOf(problem, a.configuration), a.compressor,
+              a.compressors);
   join_pieces(Family::kReservoir, parts.reservoirs, a.reservoir, a.reservoirs);
   if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
   if (a.tank) add(Filled(problem, a.tanks, *a.tank, settings));
@@ -227,7 +229,8 @@ bool Fit(const model::Fitting& fitting, const model::Valve& valve) {
 
 bool Fit(const Problem& problem, const Assembly& source) {
   if (source.compressor)
-    return model::VoltageMatches(source.battery->nominal_voltage_v,
+    return AirSuffices(problem, *source.compressor, source.compressors) &&
+           model::VoltageMatches(source.battery->nominal_voltage_v,
                                  source.compressor->curve.voltage_v);
   if (HasTank(source.configuration)) return true;  // its fill is a setting
   // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
@@ -266,9 +269,9 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
       return put(parts.co2, a.co2);
     case Family::kCompressor:
     case Family::kVacuumPump:
+    case Family::kEjector:
       a.compressors = item.quantity;
-      return put(family == Family::kVacuumPump ? parts.vacuum_pumps : parts.compressors,
-                 a.compressor);
+      return put(PumpsIn(parts, family), a.compressor);
     case Family::kBattery:
       a.batteries = item.quantity;
       return put(parts.batteries, a.battery);

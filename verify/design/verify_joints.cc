@@ -94,6 +94,7 @@ JointRows JointOfPieces(const Problem& problem, Family family, int part, int pie
       return Join(problem, pieces, HighestOperatingPa(problem), Asked(problem));
     case Family::kCompressor:
     case Family::kVacuumPump:
+    case Family::kEjector:
       return Join(problem, pieces, HighestOperatingPa(problem), 0.0);
     default:
       return {};

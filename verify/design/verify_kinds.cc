@@ -11,6 +11,7 @@ Place PlaceOf(Family family) {
   switch (family) {
     case Family::kCompressor:
     case Family::kVacuumPump:
+    case Family::kEjector:
     case Family::kCylinder:
     case Family::kCo2:
     case Family::kTank:

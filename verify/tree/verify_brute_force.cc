@@ -132,7 +132,8 @@ class Enumeration {
         return Fit(problem_, source);
       case Family::kBattery:
         if (!HasPump(plan().configuration)) return true;
-        source.compressor = &PumpsOf(problem_)[part_of(PumpFamily(plan().configuration))];
+        source.compressor =
+            &PumpsOf(problem_, plan().configuration)[part_of(PumpFamily(plan().configuration))];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);
       default:

@@ -255,8 +255,8 @@ bool FlowMustBeEqual(const Problem& problem, const Layout& layout) {
     return false;
   if (!IsPumped(configuration)) return MayOverlap(problem);
   return (UnitsOf(problem).size() > 1 && KeepsReservoir(configuration)) ||
-         !std::all_of(PumpsOf(problem).begin(), PumpsOf(problem).end(),
-                      [&](const model::Compressor& pump) {
+         !std::all_of(PumpsOf(problem, configuration).begin(),
+                      PumpsOf(problem, configuration).end(), [&](const model::Compressor& pump) {
                         return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,
                                                 model::HighestPressure(pump.curve)) == 1.0;
                       });

@@ -58,6 +58,7 @@ const char* LimitField(Family family) {
   switch (family) {
     case Family::kCompressor:
     case Family::kVacuumPump:
+    case Family::kEjector:
       return "compressors_max";
     case Family::kBattery:
       return "batteries_max";
@@ -194,6 +195,9 @@ class Check {
               Quoted(choice.id) + " does not stand a vacuum, or its row does not say enough");
     } else if (found != catalogue_.end() && !SuitsFeed(problem_, *found)) {
       FailRow(choice, "/id", Quoted(choice.id) + WhyNotForFeed(problem_, *found));
+    } else if (found != catalogue_.end() && !HasItsPressure(problem_, *found)) {
+      FailRow(choice, "/id",
+              Quoted(choice.id) + " needs more pressure than the wall has (supply.mains)");
     } else if (found != catalogue_.end() && !IsAllowed(problem_, choice.family, *found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is no product that one can order, which supply.parts asks for");
@@ -271,7 +275,7 @@ class Check {
   void CheckSource() {
     const model::Parts& parts = problem_.parts;
     const Choice* battery_row = RowOf(Family::kBattery);
-    if (const auto* pump = Find(optimizer::PumpsOf(problem_),
+    if (const auto* pump = Find(optimizer::PumpsOf(problem_, design_.configuration),
                                 RowOf(optimizer::PumpFamily(design_.configuration)))) {
       const double pack_v = Find(parts.batteries, battery_row)->nominal_voltage_v;
       if (!model::VoltageMatches(pack_v, pump->curve.voltage_v))

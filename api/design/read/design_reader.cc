@@ -54,7 +54,8 @@ Configuration ReadConfiguration(Reader& design) {
       design, "configuration",
       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
        Configuration::kMains, Configuration::kTank, Configuration::kDirectPump,
-       Configuration::kVacuumPump, Configuration::kDirectVacuumPump, Configuration::kTankAndPump});
+       Configuration::kVacuumPump, Configuration::kDirectVacuumPump, Configuration::kTankAndPump,
+       Configuration::kEjector, Configuration::kDirectEjector});
 }
 
 optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration configuration) {

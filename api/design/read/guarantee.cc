@@ -98,7 +98,10 @@ optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
   optimizer::Problem guaranteed = problem;
   guaranteed.guarantee = optimizer::Guarantee{guarantee.tolerance.estimated};
   // Not guaranteed yet, and not asked for by name.
-  guaranteed.configurations.erase(optimizer::Configuration::kDirectVacuumPump);
+  for (const auto configuration :
+       {optimizer::Configuration::kDirectVacuumPump, optimizer::Configuration::kEjector,
+        optimizer::Configuration::kDirectEjector})
+    guaranteed.configurations.erase(configuration);
   for (std::size_t g = 0; g < guarantee.groups.size(); ++g) {
     const model::Chamber& printed = problem.groups[g].chamber;
     guaranteed.groups[g].chamber = Resized(printed, guarantee.groups[g], kDeviations);

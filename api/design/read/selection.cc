@@ -49,10 +49,19 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const std::stri
          (required == problem.require.end() || required->second.contains(id));
 }
 
+bool HasItsPressure(const optimizer::Problem& problem, const catalog::Part& part) {
+  constexpr double kRounding = 1.0 + 1e-9;
+  const auto needed = part.numbers.find("supply_pressure_kpa_gauge");
+  return part.family != "ejector" || needed == part.numbers.end() ||
+         PaFromKpaGauge(needed->second.value, problem.ambient) <=
+             problem.compressed_air.pressure_pa * kRounding;
+}
+
 bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::Part& part) {
   return IsAllowed(problem, family, part.id) &&
          (!problem.orderable_only || part.orderable.value_or(true)) &&
-         (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part);
+         (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part) &&
+         HasItsPressure(problem, part);
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
@@ -119,7 +128,8 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
 }
 
 bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec) {
-  if (!optimizer::Evacuated(problem)) return spec.family != Family::kVacuumPump;
+  if (!optimizer::Evacuated(problem))
+    return spec.family != Family::kVacuumPump && spec.family != Family::kEjector;
   return spec.in_line || spec.joins ||
          std::any_of(problem.configurations.begin(), problem.configurations.end(),
                      [&](Configuration one) { return spec.InSourceOf(one); });

@@ -14,6 +14,8 @@ namespace plenum::api {
 
 inline constexpr const char* kCustomReservoir = "custom";
 
+// Whether the wall has the pressure at which an ejector's numbers hold; true of other parts.
+bool HasItsPressure(const optimizer::Problem& problem, const catalog::Part& part);
 // Whether `require` and `exclude` leave the part; of a row of the catalogue also `supply.parts`.
 bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family, const std::string& id);
 bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family,

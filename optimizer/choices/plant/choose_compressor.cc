@@ -2,6 +2,7 @@
 #include "optimizer/choices/plant/corner_table.h"
 #include "optimizer/choices/plant/planter.h"
 #include "optimizer/problem/part_tables.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -54,7 +55,7 @@ void SetNumbers(const PartNumbers& numbers, CompressorCorner& corner) {
 }
 
 int Planter::PlantCompressors() {
-  const std::vector<model::Compressor>& parts = PumpsOf(problem_);
+  const std::vector<model::Compressor>& parts = PumpsOf(problem_, plan_->configuration);
   const int most = problem_.limits.compressors;
   for (const model::Compressor& part : parts) voltages_.Bit(part.curve.voltage_v);
   CoarsePump alone;                                // one of the part that is planted
@@ -63,7 +64,9 @@ int Planter::PlantCompressors() {
   const auto rule = [&](int i, int quantity, const Entry<CompressorCorner>& entry) {
     const model::CompressorCurve& curve = parts[i].curve;
     CompressorCorner& corner = entry.item.corner;
-    corner.voltages = voltages_.Bit(curve.voltage_v);
+    // Where there is not enough compressed air no battery helps.
+    corner.voltages =
+        AirSuffices(problem_, parts[i], quantity) ? voltages_.Bit(curve.voltage_v) : Kinds{0};
     corner.pressure_max_pa = model::HighestPressure(curve);
     corner.duty_max = parts[i].duty_max;
     if (quantity == 1) {

@@ -94,7 +94,7 @@ class Planter {
     may_stay_open_ = MayStayOpen();
     may_close_late_ = MayCloseLate();
     plan_->bottle_range = FindBottleRange(problem, layout.configuration);
-    plan_->highest_pump_pa = HighestPumpPressure(problem);
+    plan_->highest_pump_pa = HighestPumpPressure(problem, plan_->configuration);
     plan_->tie = LargestTie(problem, layout);
     useful_max_pa_ = HighestUseful(problem, layout.configuration, plan_->highest_pump_pa);
   }
@@ -133,7 +133,7 @@ class Planter {
   bool LinesMeet() const {
     if (!IsPumped(plan_->configuration)) return SquadsOverlap();
     if (KeepsReservoir(plan_->configuration) && MeetingOf(problem_) != Meeting::kAlone) return true;
-    return !std::all_of(PumpsOf(problem_).begin(), PumpsOf(problem_).end(),
+    return !std::all_of(PumpsOf(problem_, plan_->configuration).begin(), PumpsOf(problem_, plan_->configuration).end(),
                         [&](const model::Compressor& c) {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
                                                    model::HighestPressure(c.curve));

@@ -69,7 +69,7 @@ double LargestTie(const Problem& problem, const Layout& layout) {
   add(parts.regulators, layout.own_regulators ? static_cast<double>(problem.groups.size()) : 1.0);
   add(parts.cylinders, most.cylinders);
   add(parts.co2, most.co2);
-  add(PumpsOf(problem), most.compressors * FeedsOf(problem));
+  add(PumpsOf(problem, layout.configuration), most.compressors * FeedsOf(problem));
   add(parts.batteries, most.batteries);
   add(parts.reservoirs, most.reservoirs);
   add(parts.tanks, most.reservoirs);

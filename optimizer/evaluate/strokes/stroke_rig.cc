@@ -77,8 +77,9 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     source.initial_pressure_pa = LastPeriodPa(problem, candidate, point.source_pa);
     rig.source = source;
   } else if (IsDirect(candidate.configuration)) {
-    rig.source = model::PumpSource{PumpsOf(problem)[candidate.compressor.index].curve,
-                                   candidate.compressor.quantity};
+    rig.source = model::PumpSource{
+        PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve,
+        candidate.compressor.quantity};
   } else if (!KeepsReservoir(candidate.configuration)) {
     rig.source =
         model::RegulatedSource{PressureOf(point, first),
@@ -89,7 +90,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     source.volume_m3 = point.reservoir_m3;
     source.volume_rising_m3 = point.reservoir_rising_m3;
     source.initial_pressure_pa = point.source_pa;
-    source.compressor = PumpsOf(problem)[candidate.compressor.index].curve;
+    source.compressor = PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
     source.compressor_count = candidate.compressor.quantity;
     source.stop_pressure_pa = point.source_pa;
     rig.source = source;
@@ -144,8 +145,13 @@ model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
         model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, from_pa,
                          problem.ambient.pressure_pa, problem.ambient.temperature_k);
     const double wider = std::max(1.0, empty_s / (kWithin * DeflateWindow(problem, g)));
-    for (model::FlowElement& element : rig.groups[s].exhaust)
+    model::GroupRig& group = rig.groups[s];
+    for (model::FlowElement& element : group.exhaust)
       element.sonic_conductance_m3_per_s_pa *= wider;
+    // Full since the period before: from empty it would draw beside those whose turn it is.
+    if (line.holds && !group.schedule.empty() &&
+        group.schedule.back().state == model::ValveState::kInflate)
+      group.initial_pressure_pa = line.chamber.operating_pressure_pa;
   }
   return rig;
 }

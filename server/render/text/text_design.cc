@@ -70,13 +70,17 @@ std::string SettingsText(const Json& design) {
 std::string TotalsText(const Json& design) {
   const auto& totals = design.at("totals");
   const auto& performance = design.at("performance");
-  return fmt::format(
+  const Json air = performance.value("compressed_air_l_per_min_anr", Json());
+  std::string text = fmt::format(
       "  Totals: mass {:.3f} kg, volume {} L, cost {} €, energy {} Wh\n"
       "  Air: {} L (ANR) per actuation, {} L in all; runs {} s, sustains {} Hz\n",
       totals.at("mass_kg").get<double>(), Short(totals.at("volume_l")),
       Short(totals.at("cost_eur")), Short(totals.at("energy_wh")),
       Short(performance.at("air_per_actuation_l_anr")), Short(performance.at("air_total_l_anr")),
       Short(performance.at("run_time_s")), Short(performance.at("frequency_hz_sustained")));
+  if (air.is_number())
+    text += fmt::format("  Compressed air: {} L/min (ANR) all the while\n", Short(air));
+  return text;
 }
 
 std::string MarginsTable(const Json& design) {

@@ -54,7 +54,8 @@ std::string SourceOfPart(const Json& row) {
   if (row.at("parts").is_array())
     for (const Json& part : row.at("parts")) {
       const auto words = part.get<std::string>();
-      for (const std::string family : {"compressor ", "cylinder ", "co2 ", "vacuum_pump "})
+      for (const std::string family :
+           {"compressor ", "cylinder ", "co2 ", "vacuum_pump ", "ejector "})
         if (const auto at = words.find(family); at == 0 || words.find("× " + family) != words.npos)
           source += (source.empty() ? "" : " + ") + words.substr(0, at) +
                     words.substr(at + family.size());

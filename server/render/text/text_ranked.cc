@@ -37,7 +37,7 @@ std::string NamesOf(const Json& design, std::initializer_list<std::string_view> 
 std::string StoreOf(const Json& design) {
   return design.at("configuration") == "tank"
              ? NamesOf(design, {"reservoir"})
-             : NamesOf(design, {"compressor", "vacuum_pump", "cylinder", "co2"});
+             : NamesOf(design, {"compressor", "vacuum_pump", "ejector", "cylinder", "co2"});
 }
 
 std::string SourceOf(const Json& design) {

@@ -200,7 +200,7 @@ TEST(VacuumTest, NamesWhatIsWrongWithARequest) {
   EXPECT_EQ(with([](Json& r, Json&) { r["supply"]["vacuum"]["vacuum_kpa_gauge_min"] = -50; }),
             operating);
   EXPECT_EQ(with([](Json& r, Json&) { r["supply"]["vacuum"]["configurations"] = {"ejector"}; }),
-            "/supply/vacuum/configurations/0 ");
+            "/supply/mains ");
   EXPECT_EQ(with([](Json& r, Json&) { r["supply"]["vacuum"]["configurations"] = {"hose"}; }),
             "/supply/vacuum/configurations/0 ");
   EXPECT_EQ(with([](Json& r, Json&) { r["supply"]["vacuum"]["configurations"] = {"mains"}; }),

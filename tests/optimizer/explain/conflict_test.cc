@@ -7,6 +7,7 @@
 #include <cctype>
 #include <map>
 
+#include "optimizer/explain/demands.h"
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/search/tree_search.h"
 #include "tests/support/brute_force.h"
@@ -262,6 +263,28 @@ TEST(ConflictTest, PressureThatNoPartStandsNamesTheOperatingPressure) {
   EXPECT_EQ(conflict[0].requirement, "/actuators/0/operating_pressure_kpa_gauge");
   EXPECT_NEAR(conflict[0].required.value(), 2900.0, 1e-9);
   EXPECT_FALSE(conflict[0].best.has_value());
+}
+
+// Of a robot's supply there is one: what it gives is a demand, how many of it are not.
+TEST(ConflictTest, WhatTheRobotGivesIsADemandAndPacksAreNot) {
+  Problem problem = EasyProblem(5, {Configuration::kCompressor});
+  problem.limits.batteries = 1;
+  problem.power.kind = optimizer::PowerKind::kRobot;
+  problem.power.voltage_v = 12.0;
+  problem.power.current_a_max = 2.0;
+  optimizer::SearchOptions options;
+  options.select = [](const Problem& p) { return p.parts; };
+  const auto has = [&](const std::string& pointer) {
+    for (const optimizer::Demand& demand : optimizer::Demands(problem, options))
+      if (demand.pointer == pointer) return true;
+    return false;
+  };
+  EXPECT_TRUE(has("/supply/power/current_a_max"));
+  EXPECT_FALSE(has("/supply/power/energy_wh_max"));
+  EXPECT_FALSE(has("/limits/batteries_max"));
+  problem.power = {};
+  EXPECT_TRUE(has("/limits/batteries_max"));
+  EXPECT_FALSE(has("/supply/power/current_a_max"));
 }
 
 }  // namespace conflict_test

@@ -88,7 +88,7 @@ TEST(InTurnsTest, PartsOfADesignInTurns) {
         problem, bounds, std::move(boxes), [] { return false; }, ranking);
     found += !ranking.list().empty();
     for (const optimizer::Found& one : ranking.list())
-      EXPECT_TRUE(optimizer::MakeDesign(problem, one.bounds->CandidateOf(one.box), one.leaf, true));
+      EXPECT_TRUE(optimizer::MakeDesign(problem, one.bounds->CandidateOf(one.box), one.leaf));
   }
   EXPECT_GT(boxes_seen, 10);
   EXPECT_GT(found, 0);

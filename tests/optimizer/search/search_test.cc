@@ -113,5 +113,26 @@ TEST(SearchTest, OrderOfTheCatalogueDoesNotMatter) {
   }
 }
 
+// All three limits on amounts at once, none of which binds, and energy in the objective.
+TEST(SearchTest, LimitsThatDoNotBindChangeNothing) {
+  int designs = 0;
+  for (Configuration configuration :
+       {Configuration::kCompressor, Configuration::kCylinder, Configuration::kTank}) {
+    Problem problem = EasyProblem(3, {configuration});
+    problem.unpriced_allowed = true;
+    problem.objective = {.mass_kg = 1.0, .energy_wh = 0.1};
+    problem.count = 3;
+    const Answer without = optimizer::SearchTrees(problem, Within(60.0));
+    problem.mass_max_kg = problem.volume_max_l = problem.cost_max_eur = 1e6;
+    const Answer with = optimizer::SearchTrees(problem, Within(60.0));
+    EXPECT_EQ(with.status, without.status);
+    ASSERT_EQ(with.designs.size(), without.designs.size());
+    for (std::size_t i = 0; i < with.designs.size(); ++i)
+      EXPECT_EQ(KeyOf(with.designs[i]), KeyOf(without.designs[i]));
+    designs += static_cast<int>(with.designs.size());
+  }
+  EXPECT_GT(designs, 3);
+}
+
 }  // namespace search_test
 }  // namespace plenum::test

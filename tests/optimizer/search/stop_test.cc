@@ -7,6 +7,7 @@
 
 #include "optimizer/search/tree_search.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/enumerated_search.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
@@ -162,6 +163,33 @@ TEST(StopTest, TimeLimitReachesALeaf) {
   const Answer truth = optimizer::SearchTrees(problem, Within(60.0));
   ASSERT_FALSE(truth.designs.empty());
   EXPECT_LE(answer.proof.lower_bound, truth.designs[0].objective);
+}
+
+// What a stopped search says of leaves that it did not decide is in its record.
+TEST(StopTest, RecordOfAStoppedSearchIsAccepted) {
+  int stopped = 0, with_design = 0;
+  for (int steps : {100, 400, 1600}) {
+    for (std::uint64_t seed : {3u, 5u}) {
+      SCOPED_TRACE(std::to_string(seed) + ", " + std::to_string(steps) + " steps");
+      Problem problem = EasyProblem(seed, {Configuration::kCompressor});
+      problem.objective = {.mass_kg = 1.0, .energy_wh = 0.2};
+      problem.parts.valves.resize(3);
+      problem.parts.tubing.resize(2);
+      problem.parts.fittings.resize(2);
+      problem.parts.compressors.resize(2);
+      problem.parts.batteries.resize(2);
+      problem.count = 3;
+      SearchOptions options = Within(60.0);
+      options.record = true;
+      options.steps_max = steps;
+      const Answer answer = optimizer::SearchTrees(problem, options);
+      EXPECT_TRUE(Accepts(problem, answer));
+      stopped += answer.status == Status::kFeasible;
+      with_design += answer.status == Status::kFeasible && !answer.designs.empty();
+    }
+  }
+  EXPECT_GT(stopped, 1);
+  EXPECT_GE(stopped, with_design);
 }
 
 }  // namespace stop_test

@@ -95,6 +95,31 @@ TEST(VacuumSearch, GroupsAtOnceAndOneAfterAnother) {
   EXPECT_GT(tally.feasible, Draws(3));
 }
 
+// A group may be filled across the end of the period, or another one, by the order alone.
+TEST(VacuumSearch, OrderOfGroupsDoesNotMatter) {
+  int designs = 0;
+  for (int seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(800 + seed, {kDirect}, 3, false);
+    problem.frequency_hz *= 0.1;
+    problem.count = 1;
+    const Answer first = optimizer::SearchTrees(problem, Within(60.0));
+    EXPECT_EQ(first.proof.undecided, 0);
+    for (int turn = 0; turn < 2; ++turn) {
+      std::rotate(problem.groups.begin(), problem.groups.begin() + 1, problem.groups.end());
+      const Answer other = optimizer::SearchTrees(problem, Within(60.0));
+      EXPECT_EQ(other.status, first.status);
+      ASSERT_EQ(other.designs.size(), first.designs.size());
+      if (!other.designs.empty()) {
+        EXPECT_NEAR(other.designs[0].objective, first.designs[0].objective,
+                    1e-6 * first.designs[0].objective);
+      }
+    }
+    designs += static_cast<int>(first.designs.size());
+  }
+  EXPECT_GT(designs, 2);
+}
+
 TEST(VacuumSearch, LooserIsNeverWorse) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {

@@ -62,4 +62,25 @@ optimizer::Problem EvacuatedProblem(const Draw& draw) {
   return problem;
 }
 
+optimizer::Problem EjectorProblem(const Draw& draw) {
+  optimizer::Problem problem = EvacuatedProblem(draw);
+  Random random(draw.seed + 1);
+  for (model::Compressor ejector : problem.parts.vacuum_pumps) {
+    const auto pressures = ejector.curve.current_a.x();
+    ejector.curve.current_a = model::MonotoneCurve({pressures.begin(), pressures.end()},
+                                                   std::vector<double>(pressures.size(), 0.0));
+    ejector.curve.voltage_v = 0.0;
+    ejector.duty_max = 1.0;
+    ejector.air_consumption_m3_per_s =
+        Uniform(random, 0.7, 2.0) * ejector.curve.free_air_m3_per_s.y().front();
+    ejector.basics.id = "ejector-" + ejector.basics.id;
+    problem.parts.ejectors.push_back(std::move(ejector));
+  }
+  problem.compressed_air.pressure_pa = kAmbientPa + 600e3;
+  if (Chance(random, 0.7))
+    problem.compressed_air.flow_max_m3_per_s =
+        Uniform(random, 0.5, 4.0) * problem.parts.ejectors.front().air_consumption_m3_per_s;
+  return problem;
+}
+
 }  // namespace plenum::test

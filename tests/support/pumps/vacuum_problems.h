@@ -9,6 +9,8 @@ namespace plenum::test {
 // A draw of pressure with its actuators evacuated and its compressors turned into vacuum pumps; all
 // parts stand vacuum.
 optimizer::Problem EvacuatedProblem(const Draw& draw);
+// The same with ejectors as well, of the pumps' curves, and compressed air that may have a limit.
+optimizer::Problem EjectorProblem(const Draw& draw);
 
 }  // namespace plenum::test
 

@@ -96,7 +96,7 @@ int Feeds(const Problem& problem) {
 }
 
 int TimesBought(const Problem& problem, Family family) {
-  return family == Family::kCompressor || family == Family::kVacuumPump ? Feeds(problem) : 1;
+  return IsPump(family) ? Feeds(problem) : 1;
 }
 
 int FeedsRunning(const Problem& problem) {

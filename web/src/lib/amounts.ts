@@ -142,6 +142,8 @@ const supplyWords = {
   direct_pump: 'pump without a reservoir',
   vacuum_pump: 'vacuum pump',
   direct_vacuum_pump: 'vacuum pump without a reservoir',
+  ejector: 'ejector',
+  direct_ejector: 'ejector without a reservoir',
 };
 export const powerWord = ({
   kind,

@@ -3,7 +3,7 @@ import { loadPart, numberOf } from './catalogue';
 import { type Change, changed, groupPressures } from './evaluation';
 import { feedOf, feedsOf } from './pumps';
 import type { Design, Effect, Group, Part, Requirements, Response } from './types';
-import { hasTank, isDirect } from './vacuum';
+import { hasTank, isDirect, isEjector } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -38,6 +38,13 @@ export function lineOf(design: Design, group: Group) {
   };
 }
 
+// Of an ejector a straight line from its flow without vacuum to its deepest one.
+const curveOf = (part: Part): { pressure_kpa_gauge: number; free_air_l_per_min: number }[] =>
+  part.curve ?? [
+    { pressure_kpa_gauge: numberOf(part, 'vacuum_max_kpa_gauge')!, free_air_l_per_min: 0 },
+    { pressure_kpa_gauge: 0, free_air_l_per_min: numberOf(part, 'suction_flow_l_per_min_anr')! },
+  ];
+
 // What feeds all groups, or one behind a regulator or on pumps of its own, by its place.
 function sourceOf(
   design: Design,
@@ -46,20 +53,23 @@ function sourceOf(
   change: Change,
   own: number | null,
 ) {
-  const pump = rowOf(design, 'compressor') ?? rowOf(design, 'vacuum_pump');
+  const pump =
+    rowOf(design, 'compressor') ?? rowOf(design, 'vacuum_pump') ?? rowOf(design, 'ejector');
   if (pump && !hasTank(design.configuration)) {
     // Pumps take in volume: the table is of 100 kPa, and holds at the same ratios of pressure.
     const share = (requirements.ambient?.pressure_kpa_abs ?? 100) / 100;
     const pumps = {
-      curve: parts.get(pump.id)!.curve!.map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({
+      curve: curveOf(parts.get(pump.id)!).map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({
         pressure_kpa_gauge: share * pressure_kpa_gauge,
         free_air_l_per_min: share * free_air_l_per_min,
       })),
       count: pump.quantity / feedsOf(requirements),
     };
-    if (isDirect(design.configuration)) return { kind: design.configuration, ...pumps };
+    const ejector = isEjector(design.configuration);
+    if (isDirect(design.configuration))
+      return { kind: ejector ? 'direct_vacuum_pump' : design.configuration, ...pumps };
     return {
-      kind: design.configuration,
+      kind: ejector ? 'vacuum_pump' : design.configuration,
       ...pumps,
       reservoir_volume_ml: change.reservoir_ml ?? design.settings.reservoir_volume_ml,
       initial_pressure_kpa_gauge: change.source_kpa,

@@ -33,7 +33,9 @@ export type Configuration =
   | 'tank_and_pump'
   | 'direct_pump'
   | 'vacuum_pump'
-  | 'direct_vacuum_pump';
+  | 'direct_vacuum_pump'
+  | 'ejector'
+  | 'direct_ejector';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 
 // Where a number comes from, and how far it is trusted.
@@ -162,6 +164,7 @@ export interface Design {
     air_per_actuation_l_anr: number;
     air_total_l_anr: number;
     run_time_s: number;
+    compressed_air_l_per_min_anr?: number | null;
   };
   margins: Margin[];
   data_quality: { mass_share_estimated: number; estimated: string[]; flow_estimated: boolean };

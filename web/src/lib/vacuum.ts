@@ -5,20 +5,27 @@ export const isEvacuated = (group: Group): boolean =>
   Number(group.operating_pressure_kpa_gauge) < 0;
 export const areEvacuated = ({ actuators }: Requirements): boolean => actuators.some(isEvacuated);
 
+// Driven by compressed air from the wall.
+export const isEjector = (configuration: Configuration): boolean =>
+  configuration === 'ejector' || configuration === 'direct_ejector';
 export const isVacuum = (configuration: Configuration): boolean =>
-  configuration === 'vacuum_pump' || configuration === 'direct_vacuum_pump';
+  configuration === 'vacuum_pump' ||
+  configuration === 'direct_vacuum_pump' ||
+  isEjector(configuration);
 // Pumps without a reservoir have no setting.
 export const isDirect = (configuration: Configuration): boolean =>
-  configuration === 'direct_pump' || configuration === 'direct_vacuum_pump';
+  configuration === 'direct_pump' ||
+  configuration === 'direct_vacuum_pump' ||
+  configuration === 'direct_ejector';
 // A reservoir that is filled beforehand.
 export const hasTank = (configuration: Configuration): boolean =>
   configuration === 'tank' || configuration === 'tank_and_pump';
 export const hasReservoir = (configuration: Configuration): boolean =>
-  configuration === 'compressor' || configuration === 'vacuum_pump';
+  configuration === 'compressor' || configuration === 'vacuum_pump' || configuration === 'ejector';
 
-// What evacuates, as far as the request says: pumps, the wall.
-export const vacuumSources = (requirements: Requirements): string[] =>
-  requirements.supply?.vacuum?.configurations ?? ['pump'];
+// What evacuates, as far as the request says: pumps, ejectors where there is compressed air, the wall.
+export const vacuumSources = ({ supply }: Requirements): string[] =>
+  supply?.vacuum?.configurations ?? (supply?.mains ? ['pump', 'ejector'] : ['pump']);
 
 // What a request may be answered with, as far as it says.
 export function kindsAsked(requirements: Requirements): Configuration[] {
@@ -30,8 +37,10 @@ export function kindsAsked(requirements: Requirements): Configuration[] {
   const pumps: Configuration[] = shared
     ? ['vacuum_pump', 'direct_vacuum_pump']
     : ['direct_vacuum_pump'];
+  const ejectors: Configuration[] = shared ? ['ejector', 'direct_ejector'] : ['direct_ejector'];
   return [
     ...(sources.includes('pump') ? pumps : []),
+    ...(sources.includes('ejector') ? ejectors : []),
     ...(sources.includes('mains') ? (['mains'] as Configuration[]) : []),
   ];
 }

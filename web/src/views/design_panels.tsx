@@ -19,6 +19,7 @@ import { number, Table } from '../ui/table';
 const familyColour: Record<string, string> = {
   compressor: '--c1',
   vacuum_pump: '--c1',
+  ejector: '--c1',
   battery: '--c2',
   valve: '--c3',
   reservoir: '--c4',

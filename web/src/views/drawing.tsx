@@ -15,6 +15,8 @@ const names: Record<Configuration, string> = {
   direct_pump: 'pump',
   vacuum_pump: 'vacuum',
   direct_vacuum_pump: 'vacuum',
+  ejector: 'ejector',
+  direct_ejector: 'ejector',
 };
 
 // Signs in the manner of ISO 1219, 30 × 30 around the middle.
@@ -36,6 +38,9 @@ export function SourceSign({ kind }: { kind: Configuration }) {
           <path d="M13 0 L-11 -7 M13 0 L-11 7" />
         </>
       );
+    case 'ejector':
+    case 'direct_ejector':
+      return <path d="M-13 -9 L0 -3 L13 -9 V9 L0 3 L-13 9 Z M0 13 V3" />;
     case 'cylinder':
       return <path d="M-13 -8 H6 Q13 -8 13 0 Q13 8 6 8 H-13 Z" />;
     case 'co2':

@@ -24,7 +24,7 @@ export function identity(design: Pick<Design, 'parts'>): { source: string; valve
     named(design.parts.filter((p) => families.includes(p.family)));
   return {
     source:
-      of('compressor', 'vacuum_pump', 'cylinder', 'co2') ||
+      of('compressor', 'vacuum_pump', 'ejector', 'cylinder', 'co2') ||
       of('reservoir') ||
       `wall, ${of('regulator')}`,
     valves: of('valve'),

@@ -59,7 +59,9 @@ export function partsInShort(design: Design, base: Design | undefined): string {
     (p) =>
       !known.has(key(p)) &&
       (design !== base ||
-        ['compressor', 'vacuum_pump', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family) ||
+        ['compressor', 'vacuum_pump', 'ejector', 'cylinder', 'co2', 'regulator', 'valve'].includes(
+          p.family,
+        ) ||
         (p.family === 'reservoir' && hasTank(design.configuration))),
   );
   return rows

@@ -40,7 +40,7 @@ export function Supply() {
   const evacuating = vacuumSources(requirements.value);
   const evacuateBy = (source: string, on: boolean) => {
     const { mains, ...rest } = supply.vacuum ?? {};
-    const sources = ['pump', 'mains'].filter((one) =>
+    const sources = ['pump', 'ejector', 'mains'].filter((one) =>
       one === source ? on : evacuating.includes(one),
     );
     edit(['supply', 'vacuum'], {
@@ -48,14 +48,20 @@ export function Supply() {
       configurations: sources,
       ...(sources.includes('mains') && { mains: mains ?? { pressure_kpa_gauge: -80 } }),
     });
+    if (source === 'ejector')
+      edit(
+        ['supply', 'mains'],
+        on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
+      );
   };
   return (
     <Panel title="Supply">
       {vacuum && (
         <>
           <p class="hint">
-            Operating pressures below ambient: vacuum pumps, with a reservoir or straight to the
-            actuators, or a vacuum from the wall.
+            Operating pressures below ambient: vacuum pumps or ejectors, with a reservoir or
+            straight to the actuators, or a vacuum from the wall. Ejectors take compressed air all
+            the while.
           </p>
           <div
             class="checks"
@@ -68,6 +74,11 @@ export function Supply() {
               label="Vacuum pump"
               checked={evacuating.includes('pump')}
               onChange={(on) => evacuateBy('pump', on)}
+            />
+            <Check
+              label="Ejector on the wall's compressed air"
+              checked={evacuating.includes('ejector')}
+              onChange={(on) => evacuateBy('ejector', on)}
             />
             <Check
               label="Vacuum from the wall"

@@ -57,6 +57,7 @@ export function Schematic({
   const source =
     rowOf(design, 'compressor') ??
     rowOf(design, 'vacuum_pump') ??
+    rowOf(design, 'ejector') ??
     rowOf(design, 'cylinder') ??
     rowOf(design, 'co2');
   const reservoir = rowOf(design, 'reservoir');

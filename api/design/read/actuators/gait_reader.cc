@@ -72,6 +72,7 @@ void CheckGaits(Reader& request, optimizer::Problem& problem) {
   if (meeting != optimizer::Meeting::kTogether && meeting != optimizer::Meeting::kMixed) return;
   // What was not asked for by name is no choice.
   problem.configurations.erase(optimizer::Configuration::kDirectVacuumPump);
+  problem.configurations.erase(optimizer::Configuration::kDirectEjector);
   if (!problem.configurations.contains(optimizer::Configuration::kDirectPump)) return;
   if (AnyPhase(problem))
     request.FailAt("actuators",

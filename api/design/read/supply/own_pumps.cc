@@ -21,6 +21,7 @@ bool Says(const catalog::Part& part, const char* field, std::string_view value) 
 void KeepDirect(Reader& supply, optimizer::Problem& problem) {
   if (optimizer::Evacuated(problem)) {
     problem.configurations.erase(Configuration::kVacuumPump);
+    problem.configurations.erase(Configuration::kEjector);
     return;
   }
   for (const Configuration one : problem.configurations)

@@ -57,7 +57,8 @@ const model::Compressor* PumpOf(const optimizer::Design& design,
   for (const optimizer::Choice& choice : design.parts) {
     if (choice.family != optimizer::PumpFamily(design.configuration)) continue;
     const int pump = optimizer::FindPart(problem.parts, choice.family, choice.id);
-    if (pump >= 0) return &optimizer::PumpsOf(problem)[static_cast<std::size_t>(pump)];
+    if (pump >= 0)
+      return &optimizer::PumpsOf(problem, design.configuration)[static_cast<std::size_t>(pump)];
   }
   return nullptr;
 }
@@ -129,7 +130,8 @@ void AddOutsidePower(const optimizer::Problem& problem, optimizer::Design& desig
 Json RenderPower(const optimizer::Design& design, const optimizer::Problem& problem) {
   if (!HasOutsidePower(problem)) return nullptr;
   Json power = {{"kind", optimizer::Name(problem.power.kind)}};
-  const model::Compressor* pump = PumpOf(design, problem);
+  const bool motor = !optimizer::IsEjector(design.configuration);
+  const model::Compressor* pump = motor ? PumpOf(design, problem) : nullptr;
   if (problem.power.kind == PowerKind::kRobot)
     power["voltage_v"] = Number(problem.power.voltage_v);
   else

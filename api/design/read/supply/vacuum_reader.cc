@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/json/units.h"
@@ -12,14 +13,14 @@ namespace {
 
 using optimizer::Configuration;
 
+// Ejectors are asked for by name, or where nothing is said and the wall has compressed air.
 struct Asked {
-  bool pumps = true, wall = false;
+  bool pumps = true, ejectors = true, wall = false, named = false;
 };
 
-// What the request asks for; an ejector is refused by name.
 Asked ReadKinds(Reader& vacuum) {
   if (!vacuum.Has("configurations")) return {};
-  Asked asked{false, false};
+  Asked asked{false, false, false, true};
   const std::vector<std::string> names{"pump", "ejector", "mains"};
   const std::vector<std::string> given = vacuum.Texts("configurations", 1, names.size());
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -29,7 +30,7 @@ Asked ReadKinds(Reader& vacuum) {
     else if (given[i] == "mains")
       asked.wall = true;
     else if (given[i] == "ejector")
-      vacuum.FailAt(place, "must be pump or mains: ejectors are not searched yet");
+      asked.ejectors = true;
     else if (!given[i].empty())
       vacuum.FailAt(place, "must be " + OneOf(names) + ", not " + Quoted(given[i]));
   }
@@ -62,6 +63,7 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
           {optimizer::GroupPointer(problem, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
            "must be on the same side of ambient pressure as that of the first group: actuators "
            "under pressure and evacuated ones in one design are not searched yet"});
+  if (evacuated) problem.compressed_air = std::exchange(problem.mains, {});
   auto vacuum = supply.OptionalObject("vacuum");
   if (vacuum && !evacuated)
     supply.Fail("vacuum",
@@ -81,6 +83,13 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
   problem.configurations.clear();
   if (asked.pumps)
     problem.configurations = {Configuration::kVacuumPump, Configuration::kDirectVacuumPump};
+  const bool compressed = problem.compressed_air.pressure_pa > 0.0;
+  if (asked.named && asked.ejectors && !compressed)
+    supply.Fail("mains",
+                "is required by the ejectors of supply.vacuum.configurations: its pressure, and "
+                "its flow if that has a limit, say what compressed air they have");
+  if (asked.ejectors && compressed)
+    problem.configurations.insert({Configuration::kEjector, Configuration::kDirectEjector});
   if (asked.wall) problem.configurations.insert(Configuration::kMains);
 }
 
