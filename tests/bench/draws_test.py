@@ -54,6 +54,15 @@ class Changes(unittest.TestCase):
         self.assertEqual(limit_changes.set_field(changed, "/actuators/0/rise_time_s_max", limit_changes.REMOVED),
                          {"actuators": [{}], "supply": {}})
 
+    def test_what_is_not_in_force_is_dropped(self):
+        request = {"actuators": [{"operating_pressure_kpa_gauge": 50.0, "rise_time_s_max": 1.0, "fall_time_s_max": 2.0}],
+                   "duty": {"frequency_hz": 0.4, "actuations": 9}, "supply": {"mass_kg_max": 1.0, "parts": "orderable"}}
+        kept = limit_changes.keep_in_force(request, {"/actuators/0/fall_time_s_max", "/supply/parts"})
+        self.assertEqual(kept["actuators"][0], {"operating_pressure_kpa_gauge": 50.0, "fall_time_s_max": 2.0,
+                                                "pressure_kpa_gauge_max": 1e4})
+        self.assertEqual((kept["duty"], kept["supply"]), ({"frequency_hz": 0.01, "actuations": 1}, {"parts": "orderable"}))
+        self.assertEqual(set(kept["limits"].values()), {16})
+
     def test_numbers_get_other_units_and_weights_do_not(self):
         given = {"tube_length_m": 1.0, "count": 2, "objective": {"minimize": {"mass_kg": 1.0}}}
         self.assertEqual(other_words.in_other_units(given), given | {"tube_length_m": f"{1000.0 / 25.4!r} in"})

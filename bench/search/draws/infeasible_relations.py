@@ -1,6 +1,6 @@
 """Relations of requests that are proved to be infeasible: what would have to give way, and what conflicts."""
+from limit_changes import drop, keep_in_force, set_field
 from relations import alone, in_units, rotated, tightened
-from limit_changes import REMOVED, keep_in_force, set_field
 
 
 def relaxed(inquiry):
@@ -10,9 +10,9 @@ def relaxed(inquiry):
         return False
     changed = inquiry.request
     for entry in relaxation:
-        value = entry.get("value")
-        if entry["requirement"].startswith("/"):
-            changed = set_field(changed, entry["requirement"], REMOVED if value is None else value)
+        pointer, value = entry["requirement"], entry.get("value")
+        if pointer.startswith("/"):
+            changed = drop(changed, pointer) if value is None else set_field(changed, pointer, value)
     ran = inquiry.ask("relaxed", changed)
     if ran is None:
         return False

@@ -17,7 +17,7 @@ class Change:
 
 
 def set_field(request, pointer, value):
-    """A copy with one field set, or removed."""
+    """A copy with one field set, or removed where it is."""
     changed = copy.deepcopy(request)
     *way, last = pointer.strip("/").split("/")
     place = changed
@@ -94,31 +94,38 @@ def changes_of(request, draw):
         yield Change("/fall/to_fraction", 0.5 * (1.0 + fraction), 0.7 * fraction)
 
 
+def demands_of(request):
+    """Pointers of all demands that may be dropped, whether the request states them or not."""
+    for number, group in enumerate(request["actuators"]):
+        pressed = group["operating_pressure_kpa_gauge"] > 0
+        for field in ("rise_time_s_max", "fall_time_s_max", f"pressure_kpa_gauge_{'max' if pressed else 'min'}"):
+            yield f"/actuators/{number}/{field}"
+    yield from ("/duty/actuations", "/duty/frequency_hz")
+    supply = request["supply"]
+    yield from (f"/supply/{field}" for field in supply if field.endswith("_max") or field == "parts")
+    if "mains" in supply:
+        yield "/supply/mains/flow_l_per_min_anr_max"
+    yield from (f"/limits/{field}" for field in PIECES)
+
+
+def dropped_value(request, pointer):
+    """What a demand is when it is dropped, as docs/reference/requests.md says."""
+    if pointer == "/duty/frequency_hz":
+        frequency_hz = request["duty"]["frequency_hz"]
+        return max(1e-4, frequency_hz / 4096.0, min(0.01, frequency_hz / 8.0))
+    field = pointer.rpartition("/")[2]
+    if pointer.startswith("/limits/"):
+        return 16
+    return {"actuations": 1, "pressure_kpa_gauge_max": 1e4, "pressure_kpa_gauge_min": -199.0}.get(field, REMOVED)
+
+
+def drop(request, pointer):
+    return set_field(request, pointer, dropped_value(request, pointer))
+
+
 def keep_in_force(request, kept):
-    """A copy in which all demands but those of `kept`, a set of pointers, are dropped as requests.md says."""
-    dropped = copy.deepcopy(request)
-    for number, group in enumerate(dropped["actuators"]):
-        at = f"/actuators/{number}/"
-        for field in ("rise_time_s_max", "fall_time_s_max"):
-            if at + field not in kept:
-                group.pop(field, None)
-        if group["operating_pressure_kpa_gauge"] > 0 and at + "pressure_kpa_gauge_max" not in kept:
-            group["pressure_kpa_gauge_max"] = 1e4
-        if group["operating_pressure_kpa_gauge"] < 0 and at + "pressure_kpa_gauge_min" not in kept:
-            group["pressure_kpa_gauge_min"] = -199.0
-    duty, supply = dropped["duty"], dropped["supply"]
-    if "/duty/actuations" not in kept:
-        duty["actuations"] = 1
-    if "/duty/frequency_hz" not in kept:
-        frequency_hz = duty["frequency_hz"]
-        duty["frequency_hz"] = max(1e-4, frequency_hz / 4096.0, min(0.01, frequency_hz / 8.0))
-    for field in [name for name in supply if name.endswith("_max") or name == "parts"]:
-        if f"/supply/{field}" not in kept:
-            del supply[field]
-    if "mains" in supply and "/supply/mains/flow_l_per_min_anr_max" not in kept:
-        supply["mains"].pop("flow_l_per_min_anr_max", None)
-    limits = dropped.setdefault("limits", {})
-    for field in PIECES:
-        if f"/limits/{field}" not in kept:
-            limits[field] = 16
-    return dropped
+    """A copy in which all demands but those of `kept`, a set of pointers, are dropped."""
+    for pointer in demands_of(request):
+        if pointer not in kept:
+            request = drop(request, pointer)
+    return request
