@@ -52,7 +52,7 @@ def row_of(lines):
 
 
 def table_of_classes(lines):
-    """Requests that were refused are left out."""
+    """Of answered requests."""
     print("| class |", " | ".join(COLUMNS), "|")
     print("| --- |" + " ---: |" * len(COLUMNS))
     print("| all |", " | ".join(row_of(lines)), "|")
@@ -101,7 +101,7 @@ def main():
     table_of_classes(answered)
     for line in lines:
         if not line["status"]:
-            print(f"\nSeed {line['seed']} of {line['mode']} was refused: {line['error']}")
+            print(f"\nSeed {line['seed']} of {line['mode']} has no answer (exit status {line['exit_code']}): {line['error']}")
     short = [line for line in answered if line["status"] == "feasible" and line["cpu_s"] < 0.8 * line["limit_s"]]
     print(f"\nStopped by the clock with less than 0.8 of the limit in CPU: {len(short)}")
     table_of_verify(answered)
