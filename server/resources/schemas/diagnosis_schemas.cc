@@ -18,7 +18,15 @@ Json NumbersSchema() {
                         {"fitted", number},
                         {"unit", text},
                         {"deviation_sigma", number},
-                        {"instead_of", ListOf(text)}}));
+                        {"instead_of", ListOf(text)},
+                        {"specimen", {{"type", {"string", "null"}}}}}));
+}
+
+// Pieces of the actuator, where runs name them.
+Json SpecimensSchema() {
+  const Json text = {{"type", "string"}}, name = {{"type", {"string", "null"}}};
+  return ListOf(Object(
+      {{"name", name}, {"runs", ListOf(text)}, {"fitted", {{"type", "object"}}}, {"words", text}}));
 }
 
 // What changed readings say of the names.
@@ -81,6 +89,8 @@ Json DiagnosisSchema() {
        {"measurement", {{"type", "object"}}},
        {"saved_part", Ref("schemas", "SavedPart")},
        {"numbers", NumbersSchema()},
+       {"specimens", SpecimensSchema()},
+       {"specimen_spread", {{"type", "object"}}},
        {"stability", StabilitySchema()},
        {"slips", ListOf(Object({{"what", text}, {"assume", text}}))},
        {"predicts_better",

@@ -98,6 +98,23 @@ TEST(Specimens, WithoutTheirNamesFitWorse) {
   RecordProperty("verdict_without_names", one.sentence);
 }
 
+// Volumes far from what is declared to 1 % are wrong numbers of each piece.
+TEST(Specimens, FarFromWhatIsDeclaredAreWrongEach) {
+  const std::vector<Piece> pieces = {{"a", 0.8}, {"b", 1.25}};
+  Dataset dataset = BenchOf(pieces);
+  dataset.relative_uncertainty[kVolume] = 0.01;
+  const Diagnosis diagnosis = Diagnose(dataset, {});
+  EXPECT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  EXPECT_TRUE(diagnosis.effects.empty());
+  ASSERT_EQ(diagnosis.numbers.size(), 2u) << diagnosis.sentence;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    EXPECT_EQ(diagnosis.numbers[k].specimen, pieces[k].name);
+    EXPECT_NEAR(diagnosis.numbers[k].factor, pieces[k].volume, 0.01);
+  }
+  EXPECT_NE(diagnosis.sentence.find("rest_volume of a is"), std::string::npos)
+      << diagnosis.sentence;
+}
+
 // Each piece one run alone: a delay of the valve is found, and held out in turn by runs whose own
 // volumes they tell themselves.
 TEST(Specimens, OfOneRunEachShowAnEffectOfTheRig) {
