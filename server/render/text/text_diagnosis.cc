@@ -274,8 +274,7 @@ std::vector<std::vector<std::string>> SpecimenRows(const Json& answer) {
     std::string shown = name.is_string() ? name.get<std::string>() : "without a name", runs;
     for (const Json& run : specimen.at("runs"))
       runs += (runs.empty() ? "" : ", ") + run.get<std::string>();
-    if (specimen.at("fitted").empty())
-      rows.push_back({shown, runs, specimen.at("words").get<std::string>(), "", "", ""});
+    if (specimen.at("fitted").empty()) rows.push_back({shown, runs, "none fitted", "", "", ""});
     for (const auto& [number, value] : specimen.at("fitted").items()) {
       const auto [spoken, unit] = Spoken(WithUnit(number, value.at("unit").get<std::string>()));
       const Json& interval = value.at("ci95");
