@@ -74,8 +74,7 @@ class Diagnosing {
   Diagnosis TakeOf(const KnownModel& known) {
     ModelState state = forward_.Declared();
     state.effects = known.effects;
-    for (const auto& [number, factor] : known.factors)
-      state.factor[static_cast<std::size_t>(number)] = factor;
+    for (const auto& [number, factor] : known.factors) SetFactor(number, factor, state);
     bench_.data.runs.insert(bench_.data.runs.end(), bench_.held_out.begin(), bench_.held_out.end());
     bench_.held_out.clear();
     FitOptions options = bench_.tight;

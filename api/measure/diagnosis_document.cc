@@ -7,6 +7,8 @@
 
 #include "api/json/units.h"
 #include "api/json/version.h"
+#include "api/measure/fitted/fitted_numbers.h"
+#include "api/measure/fitted/specimens_document.h"
 #include "api/measure/measured_document.h"
 #include "api/measure/stated_document.h"
 #include "api/measure/words/effect_words.h"
@@ -17,9 +19,7 @@ namespace plenum::api {
 namespace {
 
 using calibration::Dataset;
-using calibration::Declared;
 using calibration::Diagnosis;
-using calibration::Estimate;
 using calibration::Phase;
 using calibration::Run;
 
@@ -75,12 +75,6 @@ Json RenderError(const calibration::ErrorReport& error) {
           {"peak_kpa", Kpa(error.peak_pa)},
           {"holdout_rms_kpa", Kpa(error.holdout_rms_pa)},
           {"runs", std::move(runs)}};
-}
-
-Json RenderEstimate(const Estimate& estimate, double factor) {
-  return {{"value", Number(estimate.value / factor)},
-          {"ci95", Json::array({Number(estimate.low / factor), Number(estimate.high / factor)})},
-          {"identified", estimate.identified}};
 }
 
 // The parameters of the effect, where it has no estimates (a learned term) with no interval.
@@ -155,100 +149,6 @@ Json RenderResidual(const calibration::ResidualReport& residual) {
           {"lack_of_fit_limit", Number(residual.lack_of_fit_limit)}};
 }
 
-// A declared number in the contract's unit: where it is zero and one unit of it in SI.
-struct DeclaredNumber {
-  double value = 0.0;  // SI, counted from the zero: gauge pressures
-  double factor = 1.0;
-  const char* unit = "1";
-  double origin = 0.0;  // of the factor: where the number is 0
-};
-
-std::optional<DeclaredNumber> DeclaredIn(const Run& run, Declared number) {
-  const auto first_piece = [&](bool tube) {
-    return std::find_if(run.line.begin(), run.line.end(),
-                        [&](const auto& piece) { return piece.tube.has_value() == tube; });
-  };
-  const double ambient = run.ambient.pressure_pa;
-  switch (number) {
-    case Declared::kRestVolume:
-      return DeclaredNumber{run.chamber.rest_volume_m3, kM3PerMl, "ml"};
-    case Declared::kExpansionRatio:
-      return DeclaredNumber{run.chamber.expansion_ratio, 1.0, "1"};
-    case Declared::kOperatingPressure:
-      return DeclaredNumber{run.chamber.operating_pressure_pa - ambient, kPaPerKpa, "kpa_gauge"};
-    case Declared::kSourcePressure:
-      if (run.supply == calibration::Supply::kNone) return {};
-      return DeclaredNumber{run.source_pressure_pa - ambient, kPaPerKpa, "kpa_gauge"};
-    case Declared::kSonicConductance:
-    case Declared::kCriticalRatio: {
-      const auto piece = first_piece(false);
-      if (piece == run.line.end()) return {};
-      if (number == Declared::kCriticalRatio)
-        return DeclaredNumber{piece->fill.critical_ratio, 1.0, "1"};
-      return DeclaredNumber{piece->fill.sonic_conductance_m3_per_s_pa, kM3PerSPaPerDm3PerSBar,
-                            "dm3_per_s_bar"};
-    }
-    case Declared::kTubeInnerDiameter: {
-      const auto piece = first_piece(true);
-      if (piece == run.line.end()) return {};
-      return DeclaredNumber{piece->tube->inner_diameter_m, kMPerMm, "mm"};
-    }
-    case Declared::kReservoirVolume:
-      if (run.reservoir_volume_m3 <= 0.0) return {};
-      return DeclaredNumber{run.reservoir_volume_m3, kM3PerMl, "ml"};
-    case Declared::kAmbientPressure:
-      return DeclaredNumber{ambient, kPaPerKpa, "kpa_abs"};
-    case Declared::kSensorZero:
-      return DeclaredNumber{calibration::kSensorZeroPa, kPaPerKpa, "kpa", 1.0};
-    case Declared::kSensorGain:
-      return DeclaredNumber{1.0, 1.0, "1"};
-  }
-  return {};
-}
-
-// Of all runs: the first that has it.
-std::optional<DeclaredNumber> DeclaredIn(const Dataset& dataset, Declared number) {
-  std::optional<DeclaredNumber> declared;
-  for (const Run& run : dataset.runs)
-    if (!declared) declared = DeclaredIn(run, number);
-  return declared;
-}
-
-Json RenderFitted(const std::vector<std::pair<Declared, Estimate>>& factors,
-                  const Dataset& dataset) {
-  Json fitted = Json::object();
-  for (const auto& [number, factor] : factors) {
-    const std::optional<DeclaredNumber> declared = DeclaredIn(dataset, number);
-    if (!declared) continue;
-    const double one = declared->value / declared->factor;
-    const double origin = declared->origin;
-    Json rendered = RenderEstimate(
-        {factor.value - origin, factor.low - origin, factor.high - origin, factor.identified},
-        1.0 / one);
-    rendered["declared"] = Number((1.0 - declared->origin) * one);
-    rendered["unit"] = declared->unit;
-    rendered["factor"] = Number(factor.value);
-    fitted[std::string(calibration::Name(number))] = std::move(rendered);
-  }
-  return fitted;
-}
-
-Json RenderNumber(const calibration::WrongNumber& wrong, const Dataset& dataset) {
-  const std::optional<DeclaredNumber> declared = DeclaredIn(dataset, wrong.number);
-  const double one = declared ? declared->value / declared->factor : 1.0;
-  Json instead_of = Json::array();
-  for (const std::string& id : wrong.instead_of) instead_of.push_back(id);
-  return {
-      {"name", calibration::Name(wrong.number)},
-      {"declared", Number(one)},
-      {"fitted", Number(wrong.factor * one)},
-      {"unit", declared ? declared->unit : "1"},
-      {"deviation_sigma", wrong.deviation_sigma ? Number(*wrong.deviation_sigma) : Json(nullptr)},
-      {"instead_of", std::move(instead_of)},
-      {"words", NumberInWords(std::string(calibration::Name(wrong.number)), one, wrong.factor * one,
-                              declared ? std::string(declared->unit) : "1")}};
-}
-
 Json RenderStability(const calibration::StabilityChange& change) {
   return {{"change", change.change},
           {"delta_bic", change.delta_bic ? Number(*change.delta_bic) : Json(nullptr)},
@@ -256,9 +156,11 @@ Json RenderStability(const calibration::StabilityChange& change) {
 }
 
 // As a measurement's run, with what to measure and what to expect; the samples are even.
-Json RenderExperiment(const calibration::Experiment& experiment) {
+Json RenderExperiment(const calibration::Experiment& experiment, const Dataset& dataset) {
   const Run& run = experiment.run;
   Json document = {{"id", run.id}, {"blocked", run.blocked}};
+  if (!dataset.specimens.empty())
+    document["specimen"] = SpecimenName(dataset.specimens[run.specimen]);
   if (run.source_pressure_pa > 0.0)
     document["source_pressure_kpa_gauge"] =
         Number(KpaGaugeFromPa(run.source_pressure_pa, run.ambient));
@@ -369,7 +271,7 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
     return RenderEffect(effect, scale);
   });
   document["numbers"] =
-      List(diagnosis.numbers, [&](const auto& wrong) { return RenderNumber(wrong, dataset); });
+      List(diagnosis.numbers, [&](const auto& wrong) { return RenderWrong(wrong, dataset); });
   document["stability"] = List(diagnosis.stability, RenderStability);
   document["slips"] = List(diagnosis.slips, [](const auto& slip) {
     return Json{{"what", slip.what}, {"assume", slip.assume}};
@@ -377,8 +279,9 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
   document["candidates"] = List(diagnosis.candidates, RenderCandidate);
   document["tied"] = List(diagnosis.tied, Ids);
   document["tied_laws"] = List(diagnosis.tied, Laws);
-  document["next_experiment"] =
-      diagnosis.next_experiment ? RenderExperiment(*diagnosis.next_experiment) : Json(nullptr);
+  document["next_experiment"] = diagnosis.next_experiment
+                                    ? RenderExperiment(*diagnosis.next_experiment, dataset)
+                                    : Json(nullptr);
   document["reason"] =
       diagnosis.no_experiment.empty() ? Json(nullptr) : Json(diagnosis.no_experiment);
   document["residual"] = RenderResidual(diagnosis.residual);
@@ -390,6 +293,7 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
   document["series"] =
       List(diagnosis.series, [&](const auto& series) { return RenderSeries(series, dataset); });
   document["provenance"] = RenderProvenance(provenance);
+  AddSpecimens(diagnosis, dataset, document);
   AddMeasured(diagnosis, dataset, document);
   AddStatedModels(diagnosis, dataset, document);
   return document;

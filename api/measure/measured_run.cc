@@ -25,6 +25,7 @@ using calibration::Run;
 using calibration::Supply;
 
 constexpr std::size_t kReadingsMin = 8;
+constexpr std::size_t kSpecimenCharactersMax = 100;
 constexpr double kAbsurd = 3.0;  // a reading that many times above all that could cause it
 
 // Collects errors of one list up to a number, then says how many more there are.
@@ -218,6 +219,34 @@ void TakeMeasured(const std::vector<MeasuredInRig>& rig, std::vector<MeasuredNum
   }
 }
 
+// The name of the piece of the actuator; empty where the run names none.
+std::string ReadSpecimen(Reader& owner) {
+  owner.Describe("specimen",
+                 {{"type", "string"}, {"minLength", 1}, {"maxLength", kSpecimenCharactersMax}});
+  const Json* given = owner.Raw("specimen");
+  if (given == nullptr || given->is_null()) return "";
+  if (!given->is_string()) {
+    owner.Fail("specimen", "must be the name of the piece of the actuator that was measured, not " +
+                               KindOf(*given));
+    return "";
+  }
+  const auto& name = given->get_ref<const std::string&>();
+  const std::size_t length = CountCharacters(name);
+  if (length < 1 || length > kSpecimenCharactersMax)
+    owner.Fail("specimen", "must have 1 to " + std::to_string(kSpecimenCharactersMax) +
+                               " characters, not " + std::to_string(length) +
+                               "; leave it out where all runs are of one piece");
+  return name;
+}
+
+// Of the name among those of earlier runs, which it joins.
+std::size_t PlaceOf(const std::string& name, std::vector<std::string>& names) {
+  const auto known = std::find(names.begin(), names.end(), name);
+  const auto place = static_cast<std::size_t>(known - names.begin());
+  if (known == names.end()) names.push_back(name);
+  return place;
+}
+
 // By how much an imposed volume alone can raise a pressure.
 double SqueezeOf(const Run& run) {
   double least = std::numeric_limits<double>::infinity();
@@ -262,13 +291,14 @@ void CheckReadings(Reader& owner, const Run& run) {
 }  // namespace
 
 Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
-            std::vector<MeasuredNumber>& measured, Errors& errors) {
+            calibration::Dataset& dataset, Errors& errors) {
   Reader reader(element, errors);
   AllowRemarks(reader);
   Run run;
   run.id = reader.Text("id");
   if (!run.id.empty() && !ids.insert(run.id).second)
     reader.Fail("id", "must be unique; " + Quoted(run.id) + " is taken by an earlier run");
+  run.specimen = PlaceOf(ReadSpecimen(reader), dataset.specimens);
   const MeasuredRig rig = ReadRigOfRun(shared, reader.Has("rig") ? reader.Raw("rig") : nullptr,
                                        reader.Pointer("rig"), errors);
   run.ambient = rig.ambient;
@@ -279,7 +309,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.compressor = rig.compressor;
   run.reservoir_volume_m3 = rig.reservoir_volume_m3;
   run.sensor = rig.sensor;
-  TakeMeasured(rig.measured, measured, run);
+  TakeMeasured(rig.measured, dataset.measured, run);
   ReadVolume(reader, run);
   const Range pressures = PressuresAbove0(run.ambient);
   const auto source_kpa = reader.OptionalNumber(

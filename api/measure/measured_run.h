@@ -18,7 +18,7 @@ inline constexpr std::size_t kSeriesErrors = 5;  // at most, of one list of samp
 // that could cause them) and what the rig cannot do is an error. Numbers of parts that the run
 // measures join `measured`, unless an earlier run did so.
 calibration::Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
-                         std::vector<calibration::MeasuredNumber>& measured, Errors& errors);
+                         calibration::Dataset& dataset, Errors& errors);
 
 }  // namespace plenum::api
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "api/json/reader.h"
@@ -51,6 +52,22 @@ void CheckDelivery(Reader& document, const Dataset& dataset) {
                       "measures another pump or another curve than an earlier run");
     first = &points;
   }
+}
+
+// Names that no run gives are none. A volume that runs measure is that of one piece.
+void TakeSpecimens(Reader& document, Dataset& dataset) {
+  if (dataset.specimens.size() == 1 && dataset.specimens.front().empty()) dataset.specimens.clear();
+  std::map<std::size_t, std::size_t> measured_in;  // by number the run
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i)
+    for (const calibration::MeasuredPlace& place : dataset.runs[i].measured.places) {
+      if (place.of != calibration::MeasuredPlace::Of::kVolume) continue;
+      const std::size_t first = measured_in.try_emplace(place.number, i).first->second;
+      if (dataset.runs[first].specimen == dataset.runs[i].specimen) continue;
+      document.FailAt("runs/" + std::to_string(i) + "/specimen",
+                      "must be that of run " + Quoted(dataset.runs[first].id) +
+                          ": the rig measures internal_volume, which is written into a part from "
+                          "one piece; measure each piece by itself");
+    }
 }
 
 void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Dataset& dataset) {
@@ -156,7 +173,8 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   ReadUncertainty(reader, dataset);
   std::set<std::string> ids;
   for (const Element& element : reader.List("runs", 1, kRunsMax))
-    dataset.runs.push_back(ReadRun(element, *shared, ids, dataset.measured, errors));
+    dataset.runs.push_back(ReadRun(element, *shared, ids, dataset, errors));
+  TakeSpecimens(reader, dataset);
   CheckDelivery(reader, dataset);
   dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
   CheckHoldout(reader, ids, dataset);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/simulate/effects.h"
+#include "calibration/values/specimens.h"
 #include "model/effects/learned/learned.h"
 
 namespace plenum::api {
@@ -30,13 +31,47 @@ bool IsWrong(const calibration::Diagnosis& diagnosis, calibration::Declared numb
                      [&](const auto& wrong) { return wrong.number == number; });
 }
 
+// A number of a saved model: the mean of some rows of the estimates' covariance. They are one but
+// of a declared number that each specimen has.
+struct Kept {
+  std::string name;
+  double size = 1.0;  // 1 in SI in its unit
+  std::vector<std::size_t> rows = {};
+  double scatter = 0.0;  // standard deviation between specimens: the model is that of another piece
+};
+
+double CovarianceOf(const Kept& a, const Kept& b, const calibration::Estimates& estimates) {
+  double sum = 0.0;
+  for (const std::size_t i : a.rows)
+    for (const std::size_t j : b.rows) sum += estimates.covariance[i][j];
+  return a.size * b.size * sum / static_cast<double>(a.rows.size() * b.rows.size());
+}
+
+// The declared numbers but wrong ones, whose rows begin at `row`.
+void KeepFactors(const calibration::Diagnosis& diagnosis, const calibration::Estimates& estimates,
+                 std::size_t row, std::vector<Kept>& kept, SavedModel& model) {
+  for (int k = 0; k < calibration::kDeclaredCount; ++k) {
+    const auto number = static_cast<calibration::Declared>(k);
+    Kept one{std::string(calibration::Name(number))};
+    std::vector<double> factors;
+    for (std::size_t i = 0; i < estimates.fitted.size(); ++i) {
+      if (estimates.fitted[i].number != number) continue;
+      one.rows.push_back(row + i);
+      factors.push_back(estimates.fitted[i].factor.value);
+    }
+    if (factors.empty() || IsWrong(diagnosis, number)) continue;
+    if (factors.size() > 1) one.scatter = calibration::DeviationOf(factors);
+    model.factors.emplace_back(number, calibration::MeanOf(factors));
+    kept.push_back(std::move(one));
+  }
+}
+
 }  // namespace
 
 // A declared number that is wrong is the measured rig's and no property of the part: it stays out.
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance) {
   SavedModel model;
-  std::vector<double> sizes;      // of what is kept, 1 in SI in its unit
-  std::vector<std::size_t> kept;  // of the rows of the estimates' covariance
+  std::vector<Kept> kept;
   std::size_t row = 0;
   const calibration::Estimates& estimates =
       diagnosis.learned ? diagnosis.discrepancy->beside : diagnosis;
@@ -46,23 +81,16 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
     for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
       if (model::OfEachRun(fitted.effect.spec->parameters[i])) continue;
       const UnitOfParameter unit = UnitOfFitted(fitted.effect, i);
-      model.covariance.parameters.push_back(unit.name);
-      sizes.push_back(unit.size);
-      kept.push_back(row++);
+      kept.push_back({unit.name, unit.size, {row++}});
     }
   }
-  for (const auto& [number, estimate] : estimates.fitted) {
-    const std::size_t own = row++;
-    if (IsWrong(diagnosis, number)) continue;
-    kept.push_back(own);
-    model.factors.emplace_back(number, estimate.value);
-    model.covariance.parameters.emplace_back(calibration::Name(number));
-    sizes.push_back(1.0);
-  }
-  for (std::size_t i = 0; i < kept.size(); ++i) {
+  KeepFactors(diagnosis, estimates, row, kept, model);
+  for (const Kept& one : kept) {
+    model.covariance.parameters.push_back(one.name);
     std::vector<double>& of_one = model.covariance.rows.emplace_back();
-    for (std::size_t j = 0; j < kept.size(); ++j)
-      of_one.push_back(sizes[i] * sizes[j] * estimates.covariance[kept[i]][kept[j]]);
+    for (const Kept& other : kept)
+      of_one.push_back(CovarianceOf(one, other, estimates) +
+                       (&one == &other ? one.scatter * one.scatter : 0.0));
   }
   for (const Provenance::File& file : provenance.files)
     model.data.push_back({file.name, file.sha256});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "calibration/values/effect_sets.h"
+#include "calibration/values/specimens.h"
 #include "model/effects/learned/learned.h"
 
 namespace plenum::calibration {
@@ -209,10 +210,10 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
   return coordinate;
 }
 
-Coordinate FactorCoordinate(Declared number, double uncertainty, bool freed,
+Coordinate FactorCoordinate(const Parameter& factor, double uncertainty, bool freed,
                             const std::pair<double, double>& range) {
   Coordinate coordinate;
-  coordinate.parameter = {.kind = Parameter::Kind::kDeclared, .declared = number};
+  coordinate.parameter = factor;
   if (uncertainty == kUnknown) {
     coordinate.kind = kLog;
     coordinate.low = -kUnknownSpan, coordinate.high = kUnknownSpan;
@@ -317,9 +318,9 @@ TypicalSizes SizesOf(const Dataset& dataset) {
 }
 
 TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted) {
-  const auto factor = [&](Declared number) {
+  const auto factor = [&, all = FactorsOf(dataset.runs.back(), fitted)](Declared number) {
     const auto at = static_cast<std::size_t>(number);
-    return dataset.relative_uncertainty[at] == kUnknown ? fitted.factor[at] : 1.0;
+    return dataset.relative_uncertainty[at] == kUnknown ? all[at] : 1.0;
   };
   const double conductance = factor(Declared::kSonicConductance);
   const double volume = factor(Declared::kRestVolume);
@@ -338,11 +339,10 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
   for (std::size_t k = 0; k < kDeclaredCount; ++k) {
     const auto number = static_cast<Declared>(k);
     const double uncertainty = dataset.relative_uncertainty[k];
-    const bool has = std::any_of(runs.begin(), runs.end(),
-                                 [&](std::size_t i) { return Has(dataset.runs[i], number); });
-    if ((uncertainty > 0.0 || freed[k]) && has)
-      coordinates.push_back(
-          FactorCoordinate(number, uncertainty, freed[k], FactorRange(dataset, number)));
+    if (!(uncertainty > 0.0 || freed[k])) continue;
+    for (const std::size_t specimen : SpecimensWith(dataset, runs, number))
+      coordinates.push_back(FactorCoordinate({.declared = number, .specimen = specimen},
+                                             uncertainty, freed[k], FactorRange(dataset, number)));
   }
   const ModelState declared = forward.Declared();
   for (const std::size_t i : runs) {

@@ -50,7 +50,8 @@ TypicalSizes SizesOf(const Dataset& dataset);
 TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted);
 
 // The declared numbers that may move, and the initial pressures that are not known better than by a
-// reading: of the runs given. A declared number that no such run has is left out; one that is freed
+// reading: of the runs given. A declared number that no such run has is left out; one that each
+// specimen has stands for each specimen of these runs; one that is freed
 // has no prior, and the scale of its uncertainty or, declared exact, kExactUncertainty. With
 // `clocks`, each run's clock too: commands fall between samples, so that the prior is that of a
 // time rounded to the sampling, 1/√12 of the interval. Not of a run that begins with a stroke

@@ -11,6 +11,7 @@
 #include "calibration/fit/recorded/instants.h"
 #include "calibration/fit/run_cost.h"
 #include "calibration/fit/within_bounds.h"
+#include "calibration/values/specimens.h"
 #include "model/effects/learned/learned.h"
 
 namespace plenum::calibration {
@@ -64,7 +65,8 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
       const bool of_line =
           number == Declared::kSonicConductance || number == Declared::kCriticalRatio;
       return coordinate.parameter.kind == Parameter::Kind::kDeclared &&
-             !(options.own_pairs && of_line);
+             !(options.own_pairs && of_line) &&
+             !(options.own_piece && OfEachSpecimen(start, number));
     });
     return coordinates;
   }
@@ -168,7 +170,10 @@ void SplitLateness(const FitData& data, const std::vector<Coordinate>& coordinat
 }
 
 // What is to be expected of a run that is not recorded yet.
-void MeanLateness(const std::vector<Coordinate>& coordinates, ModelState& state) {
+void ExpectUnseen(const FitData& data, const std::vector<Coordinate>& coordinates,
+                  ModelState& state) {
+  TakeMeans(data.forward->dataset(), data.runs, state);
+  if (!Fits(coordinates, Parameter::Kind::kLateness)) return;
   double sum_s = 0.0, count = 0.0;
   for (const Coordinate& coordinate : coordinates) {
     if (coordinate.parameter.kind != Parameter::Kind::kLateness) continue;
@@ -206,6 +211,15 @@ std::vector<model::FlowElement> PairsOf(const Run& run) {
 }
 
 }  // namespace
+
+// Whether the data have the run, and no other of its specimen.
+static bool IsAloneOfItsPiece(const FitData& data, std::size_t run) {
+  const std::vector<Run>& runs = data.forward->dataset().runs;
+  std::size_t others = 0;
+  for (const std::size_t fitted : data.runs)
+    if (fitted != run && runs[fitted].specimen == runs[run].specimen) ++others;
+  return others == 0 && std::count(data.runs.begin(), data.runs.end(), run) > 0;
+}
 
 bool HasOwnPairs(const FitData& data, std::size_t run) {
   const std::vector<Run>& runs = data.forward->dataset().runs;
@@ -268,7 +282,7 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   fit.status = cancelled ? FitStatus::kCancelled : StatusOf(solution.termination);
   if (fit.status == FitStatus::kFailed) fit.detail = solution.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
-  if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);
+  if (!options.nuisance_only) ExpectUnseen(data, fit.coordinates, fit.state);
   fit.chi2_prior = Chi2Prior(fit);
   fit.chi2_data = (2.0 * solution.cost - fit.chi2_prior) / options.weight;
   fit.bic = Bic(fit);
@@ -280,6 +294,7 @@ Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, Fi
   alone.runs = {run};
   options.nuisance_only = true;
   options.own_pairs = HasOwnPairs(data, run);
+  options.own_piece = IsAloneOfItsPiece(data, run);
   ModelState own = state;
   own.freed = {};
   return FitModel(alone, own, options);

@@ -46,7 +46,8 @@ struct Fit {
 };
 
 // From the state: its effects and factors are the start. With nuisance_only the phases of what
-// swings are looked for all around.
+// swings are looked for all around. Specimens that the runs do not tell end with the means of the
+// others.
 Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options);
 
 // What the free numbers of a fit cost beside n·ln(χ²/n), of readings that are worth 1/memory of
@@ -68,7 +69,9 @@ bool HasOwnPairs(const FitData& data, std::size_t run);
 // The state with what a run that a fit to the data did not see has of its own: its clock and its
 // initial pressure, where unknown, and the pairs (C, b) of a line that no run of the data has.
 // Nothing that was learned from other runs can tell them, so that they alone are fitted, the pairs
-// within their uncertainties.
+// within their uncertainties. A run of the data, left out in turn, that is the only one of its
+// specimen tells the numbers of that, too; a run held out of a specimen that no run of the data is
+// of has the means that FitModel gave it (specimens.h).
 Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, FitOptions options);
 // Its state; the one given where it failed.
 ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,

@@ -29,6 +29,7 @@ struct FitOptions {
   bool nuisance_only = false;           // only what each run has of its own moves
   bool declared_stay = false;           // declared numbers with a prior stay where they start
   bool own_pairs = false;               // with nuisance_only: and the declared pairs (C, b)
+  bool own_piece = false;               // with nuisance_only: and what each specimen has of its own
   std::optional<Parameter> fixed = {};  // stays where it starts
   double weight = 1.0;  // of Σ e² beside the priors, in the search for the optimum
   int threads = 1;

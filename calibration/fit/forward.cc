@@ -6,6 +6,7 @@
 #include "calibration/fit/recorded/gauge.h"
 #include "calibration/values/crossing.h"
 #include "calibration/values/measured_place.h"
+#include "calibration/values/specimens.h"
 #include "model/effects/learned/learned.h"
 #include "model/flow/tube.h"
 #include "model/simulate/sensitivity.h"
@@ -34,6 +35,21 @@ model::MonotoneCurve Scaled(const model::MonotoneCurve& table, double factor) {
   std::vector<double> volume_m3(table.y().begin(), table.y().end());
   for (double& m3 : volume_m3) m3 *= factor;
   return {{table.x().begin(), table.x().end()}, std::move(volume_m3)};
+}
+
+model::Chamber ChamberOf(const Run& run, const Factors& factors, double shift_pa) {
+  const auto factor = [&](Declared number) { return factors[static_cast<std::size_t>(number)]; };
+  model::Chamber chamber = run.chamber;
+  chamber.rest_volume_m3 *= factor(Declared::kRestVolume);
+  chamber.volume_curve = Scaled(chamber.volume_curve, factor(Declared::kRestVolume));
+  chamber.expansion_ratio =
+      std::max(1.0, chamber.expansion_ratio * factor(Declared::kExpansionRatio));
+  chamber.operating_pressure_pa +=
+      (factor(Declared::kOperatingPressure) - 1.0) *
+          (run.chamber.operating_pressure_pa - run.ambient.pressure_pa) +
+      shift_pa;
+  chamber.ambient_pressure_pa += shift_pa;
+  return chamber;
 }
 
 double Bore(const LinePiece& piece, const ModelState& state) {
@@ -72,7 +88,7 @@ class DirectionOf {
     direction_.clear();
     switch (parameter.kind) {
       case Parameter::Kind::kDeclared:
-        OfFactor(parameter.declared);
+        if (Concerns(parameter, run_, state_)) OfFactor(parameter.declared);
         for (const MeasuredPlace& place : run_.measured.places)
           std::erase_if(direction_, [&](const model::WeightedNumber& moved) {
             return moved.number == &NumberAt(rig_, place);
@@ -250,6 +266,7 @@ ModelState ForwardModel::Declared() const {
     state.initial_temperature_k.push_back(
         run.initial_temperature_k.value_or(run.ambient.temperature_k));
   }
+  state.specimen_factor = DeclaredFactors(*dataset_);
   state.clock_s.assign(dataset_->runs.size(), 0.0);
   state.phase_rad.assign(dataset_->runs.size(), 0.0);
   state.late_s.resize(dataset_->runs.size());
@@ -298,22 +315,13 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
     rig.exhaust_pressure_pa = ExhaustPressure(run, shift_pa);
   model::GroupRig group;
   group.name = run.id;
-  model::Chamber& chamber = group.chamber = run.chamber;
-  chamber.rest_volume_m3 *= Factor(state, Declared::kRestVolume);
-  chamber.volume_curve = Scaled(chamber.volume_curve, Factor(state, Declared::kRestVolume));
-  chamber.expansion_ratio =
-      std::max(1.0, chamber.expansion_ratio * Factor(state, Declared::kExpansionRatio));
-  chamber.operating_pressure_pa +=
-      (Factor(state, Declared::kOperatingPressure) - 1.0) *
-          (run.chamber.operating_pressure_pa - run.ambient.pressure_pa) +
-      shift_pa;
-  chamber.ambient_pressure_pa += shift_pa;
+  group.chamber = ChamberOf(run, FactorsOf(run, state), shift_pa);
   for (const LinePiece& declared : run.line) {
     const LinePiece piece = AsCrossed(declared, run);
     FlowElement fill = Scaled(piece.fill, state), exhaust = Scaled(piece.exhaust, state);
     if (piece.tube) {
       fill = exhaust = model::TubeElement(Bore(piece, state), piece.tube->length_m);
-      chamber.dead_volume_m3 += model::BoreVolume(Bore(piece, state), piece.tube->length_m);
+      group.chamber.dead_volume_m3 += model::BoreVolume(Bore(piece, state), piece.tube->length_m);
     }
     group.fill.push_back(fill);
     group.exhaust.insert(group.exhaust.begin(), exhaust);

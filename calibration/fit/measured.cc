@@ -189,14 +189,14 @@ static std::optional<std::pair<ModelState, double>> MovedTable(const Run& run,
                         std::count(delivery.begin(), delivery.end(), parameter.number) > 0;
   const bool swells = parameter.kind == Parameter::Kind::kDeclared &&
                       parameter.declared == Declared::kRestVolume &&
-                      !run.chamber.volume_curve.empty();
+                      Concerns(parameter, run, state) && !run.chamber.volume_curve.empty();
   if (!delivers && !swells) return std::nullopt;
   std::pair<ModelState, double> moved = {state, kVolumeStep};
   if (delivers) {
     moved.second = kDeliveryStep * run.compressor.free_air_m3_per_s.y().front();
     moved.first.measured[parameter.number] += moved.second;
   } else {
-    moved.first.factor[static_cast<std::size_t>(Declared::kRestVolume)] += moved.second;
+    NumberOf(moved.first, parameter) += moved.second;
   }
   return moved;
 }

@@ -6,6 +6,7 @@
 #include "calibration/judge/residual.h"
 #include "calibration/learn/criticism.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/specimens.h"
 #include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
@@ -46,6 +47,27 @@ double PredictionVariance(const FitData& data, const Fit& fit, std::size_t run,
   return (slopes * Covariance(data, fit, options)).cwiseProduct(slopes).sum();
 }
 
+// What the scatter between pieces adds to the squares of a run of a piece that no fit saw.
+double PieceVariance(const Bench& bench, const ModelState& state, std::size_t run) {
+  std::vector<Parameter> parameters;
+  std::vector<double> scatter;
+  for (const Declared number : UntoldNumbers(bench.dataset, bench.data.runs, run)) {
+    parameters.push_back({.declared = number, .specimen = bench.dataset.runs[run].specimen});
+    scatter.push_back(ScatterOf(bench.dataset, bench.data.runs, state, number));
+  }
+  if (parameters.empty()) return 0.0;
+  const Prediction prediction = bench.forward.Predict(
+      run, state, parameters,
+      {.cancelled = bench.tight.cancelled, .steps_max = bench.tight.steps_max});
+  if (prediction.status != model::SimulateStatus::kDone) return 0.0;
+  double sum_pa2 = 0.0;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    for (const std::size_t i : bench.observed[run].signals.front().samples)
+      if (const std::vector<double>& slope = prediction.derivatives[j].pressure_pa; !slope.empty())
+        sum_pa2 += std::pow(scatter[j] * slope[i], 2);
+  return sum_pa2;
+}
+
 // Squares on runs that a fit did not see, and what they are made of.
 struct UnseenSum {
   Squares squares;
@@ -53,7 +75,7 @@ struct UnseenSum {
   void Add(const Bench& bench, const FitData& data, const Fit& fit, std::size_t run) {
     squares.Add(ErrorsUnseen(bench, run, fit.state));
     const auto count = static_cast<double>(bench.observed[run].signals.front().samples.size());
-    noise_pa2 += count * std::pow(NoiseOf(bench, {run}), 2);
+    noise_pa2 += count * std::pow(NoiseOf(bench, {run}), 2) + PieceVariance(bench, fit.state, run);
     spread_pa2 += PredictionVariance(data, fit, run, bench.tight);
     samples += count;
   }

@@ -72,8 +72,9 @@ Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& stat
 double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs);
 
 // Error on runs that a fit did not see, and what it is made of where the model is right: the noise,
-// and the spread √(∂p/∂uᵀ·Σ·∂p/∂u) in the mean, Σ the covariance of the fitted coordinates u. Few
-// runs fix few numbers, and a model that is right then predicts others badly.
+// with it the scatter between pieces where the run is of one that no fit saw, and the spread
+// √(∂p/∂uᵀ·Σ·∂p/∂u) in the mean, Σ the covariance of the fitted coordinates u. Few runs fix few
+// numbers, and a model that is right then predicts others badly.
 struct UnseenError {
   double rms_pa = 0.0, noise_pa = 0.0, spread_pa = 0.0;
 };

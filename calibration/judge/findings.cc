@@ -12,6 +12,7 @@
 #include "calibration/judge/evidence.h"
 #include "calibration/noise/phases.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/specimens.h"
 #include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
@@ -135,7 +136,9 @@ Estimates EstimatesOf(const Bench& bench, const Fit& fit, IntervalsFrom source) 
       effects.push_back(j);
     }
     if (parameter.kind == Parameter::Kind::kDeclared) {
-      estimates.fitted.emplace_back(parameter.declared, intervals[j]);
+      estimates.fitted.push_back({parameter.declared, intervals[j], {}});
+      if (OfEachSpecimen(fit.state, parameter.declared))
+        estimates.fitted.back().specimen = parameter.specimen;
       fitted.push_back(j);
     }
   }
@@ -262,6 +265,17 @@ static std::string InstantsInWords(const Bench& bench, const ModelState& state) 
   return words;
 }
 
+// "r5 is of c, of which no fit saw a run": empty of other runs.
+static std::string MeansInWords(const Bench& bench, std::size_t run) {
+  std::string numbers;
+  for (const Declared number : UntoldNumbers(bench.dataset, bench.data.runs, run))
+    (numbers += numbers.empty() ? "" : " and ") += Name(number);
+  if (numbers.empty()) return "";
+  const Run& held_out = bench.dataset.runs[run];
+  return held_out.id + " is" + OfSpecimenInWords(bench.dataset.specimens[held_out.specimen]) +
+         ", of which no fit saw a run: it has the mean " + numbers + " of the other specimens";
+}
+
 void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
   std::size_t outliers = 0, clipped = 0, staircases = 0;
   for (const ObservedRun& run : bench.observed) {
@@ -281,6 +295,9 @@ void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
     if (IsCopy(bench, run))
       warnings.push_back("the runs " + bench.dataset.runs[bench.original[run]].id + " and " +
                          bench.dataset.runs[run].id + " have the same readings: they count once");
+  for (const std::size_t run : bench.held_out)
+    if (const std::string numbers = MeansInWords(bench, run); !numbers.empty())
+      warnings.push_back(numbers);
   if (const std::string instants = InstantsInWords(bench, diagnosis.models.after.state);
       !instants.empty())
     warnings.push_back("instants that are not known were found in the readings: " + instants);
@@ -308,7 +325,8 @@ static std::string InWords(const WrongNumber& wrong) {
   else
     std::snprintf(text, sizeof text, " is %.2g %% %s than declared",
                   100.0 * std::abs(wrong.factor - 1.0), wrong.factor > 1.0 ? "more" : "less");
-  return std::string(Name(wrong.number)) + text;
+  const std::string of = wrong.specimen ? OfSpecimenInWords(*wrong.specimen) : "";
+  return std::string(Name(wrong.number)) + of + text;
 }
 
 // What the diagnosis names: "The model lacks creep, and rest_volume is 9 % more than declared".

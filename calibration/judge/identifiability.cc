@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/fit/run_worth.h"
+#include "calibration/values/specimens.h"
 #include "calibration/values/symmetric.h"
 
 namespace plenum::calibration {
@@ -54,7 +55,9 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
     case Parameter::Kind::kDeclared:
       break;
   }
-  return std::string(Name(parameter.declared));
+  const std::string name(Name(parameter.declared));
+  if (!OfEachSpecimen(state, parameter.declared)) return name;
+  return name + OfSpecimenInWords(dataset.specimens[parameter.specimen]);
 }
 
 std::optional<Identifiability> Identify(const FitData& data, const Fit& fit,

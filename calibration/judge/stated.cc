@@ -7,6 +7,7 @@
 #include "calibration/judge/findings.h"
 #include "calibration/judge/identifiability.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/specimens.h"
 
 namespace plenum::calibration {
 namespace {
@@ -44,13 +45,17 @@ std::vector<StatedRun> StatedRuns(const Bench& bench) {
 
 StatedModel Stated(const Bench& bench, const ModelState& state) {
   const std::size_t runs = bench.dataset.runs.size();
-  StatedModel stated{state, std::vector<Factors>(runs, state.factor), {}};
+  StatedModel stated{state, {}, {}};
+  for (const Run& run : bench.dataset.runs) stated.run_factor.push_back(FactorsOf(run, state));
+  for (std::size_t k = 0; k < state.specimen_factor.size(); ++k)
+    if (const auto number = static_cast<Declared>(k); OfEachSpecimen(state, number))
+      stated.state.factor[k] = MeanFactor(bench.dataset, bench.data.runs, state, number);
   stated.fitted_alone.resize(runs);
   for (const std::size_t run : bench.held_out) {
     const Fit aligned = AlignedFit(bench, run, state);
     if (!aligned.Usable()) continue;
     CopyRun(aligned.state, run, stated.state);
-    stated.run_factor[run] = aligned.state.factor;
+    stated.run_factor[run] = FactorsOf(bench.dataset.runs[run], aligned.state);
     for (const Coordinate& coordinate : aligned.coordinates)
       stated.fitted_alone[run].push_back(NameOf(coordinate.parameter, state, bench.dataset));
   }

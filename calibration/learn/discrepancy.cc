@@ -172,8 +172,9 @@ std::vector<ModelState> StartsBeside(const FitData& data, const model::EffectSpe
                                      const FitOptions& options) {
   std::vector<ModelState> starts = Starts(data, spec, base, established, options);
   ModelState declared = base;
-  declared.factor = data.forward->Declared().factor;
-  if (base.factor == established.factor || base.factor == declared.factor) return starts;
+  const ModelState nominal = data.forward->Declared();
+  declared.factor = nominal.factor, declared.specimen_factor = nominal.specimen_factor;
+  if (SameFactors(base, established) || SameFactors(base, declared)) return starts;
   for (ModelState& start : Starts(data, spec, declared, established, options))
     starts.push_back(std::move(start));
   return starts;

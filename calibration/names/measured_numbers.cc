@@ -7,6 +7,7 @@
 
 #include "calibration/names/wrong_numbers.h"
 #include "calibration/values/measured_place.h"
+#include "calibration/values/specimens.h"
 
 namespace plenum::calibration {
 namespace {
@@ -62,14 +63,15 @@ void OfDeclared(const Dataset& dataset, const Diagnosis& diagnosis,
   for (const WrongNumber& wrong : diagnosis.numbers)
     reasons.push_back(std::string(Name(wrong.number)) +
                       " of the rig is found wrong: correct it and diagnose again");
-  for (const auto& [number, factor] : diagnosis.fitted) {
+  for (const auto& [number, factor, specimen] : diagnosis.fitted) {
     const double uncertainty = UncertaintyOf(dataset, number);
     if (!(uncertainty > 0.0) || uncertainty == kUnknown) continue;
     const double sigmas = std::abs(factor.value - 1.0) / uncertainty;
     if (sigmas > kFarSigmas)
-      reasons.push_back(std::string(Name(number)) + " had to be moved by " +
-                        Percent(std::abs(factor.value - 1.0)) + ", declared to " +
-                        Percent(uncertainty));
+      reasons.push_back(std::string(Name(number)) +
+                        (specimen ? OfSpecimenInWords(dataset.specimens[*specimen]) : "") +
+                        " had to be moved by " + Percent(std::abs(factor.value - 1.0)) +
+                        ", declared to " + Percent(uncertainty));
   }
 }
 

@@ -36,12 +36,16 @@ std::vector<WrongNumber> WrongNumbersOf(const Dataset& dataset, const Contender&
     if (!number) continue;
     const auto at = static_cast<std::size_t>(*number);
     const double stated = dataset.relative_uncertainty[at];
-    const double factor = named.fit.state.factor[at];
-    wrong.push_back(
-        {.number = *number,
-         .factor = factor,
-         .deviation_sigma = (factor - 1.0) / (stated > 0.0 ? stated : kExactUncertainty),
-         .instead_of = {}});
+    for (const Coordinate& coordinate : named.fit.coordinates) {
+      const Parameter& parameter = coordinate.parameter;
+      if (parameter.kind != Parameter::Kind::kDeclared || parameter.declared != *number) continue;
+      WrongNumber& one = wrong.emplace_back();
+      one.number = *number;
+      one.factor = NumberOf(named.fit.state, parameter);
+      one.deviation_sigma = (one.factor - 1.0) / (stated > 0.0 ? stated : kExactUncertainty);
+      if (OfEachSpecimen(named.fit.state, *number))
+        one.specimen = dataset.specimens[parameter.specimen];
+    }
   }
   if (wrong.empty()) return wrong;
   const std::vector<std::string> instead_of = IdsInsteadOfNumbers(contenders, memory);

@@ -82,7 +82,7 @@ ModelState StateOf(const Contender& contender, const EffectSet& rest) {
   for (std::size_t k = 0; k < kDeclaredCount; ++k) {
     if (!state.freed[k] || holds(&Freeing(static_cast<Declared>(k)))) continue;
     state.freed[k] = false;
-    state.factor[k] = 1.0;
+    SetFactor(static_cast<Declared>(k), 1.0, state);
   }
   return state;
 }

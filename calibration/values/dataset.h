@@ -19,7 +19,8 @@
 namespace plenum::calibration {
 
 // The declared numbers that carry an uncertainty, named as in the contract. One factor on each
-// serves all runs and both directions.
+// serves all runs and both directions; where runs are of several specimens, one of the actuator's
+// own numbers serves those of one specimen.
 enum class Declared {
   kRestVolume,
   kExpansionRatio,
@@ -37,6 +38,10 @@ enum class Declared {
 };
 inline constexpr int kDeclaredCount = 11;
 inline constexpr int kOfTheRig = 9;  // the first ones, of which documents state the uncertainty
+// The first ones are the actuator's own: pieces of one kind differ in them. The operating pressure
+// is not one: it is where the volume's law is stated, and beside the expansion ratio it is no
+// second number of a piece, as the two are one slope of the volume.
+inline constexpr int kOfActuator = 2;
 inline constexpr double kSensorZeroPa = 1e5;
 std::string_view Name(Declared number);
 
@@ -112,6 +117,7 @@ struct Recorded {
   // The volume channel drives the model, whatever the pressure: the run is `blocked`, too. It is
   // taken as exact: a factor on it and one on all conductances are the same to the pressure.
   bool volume_imposed = false;
+  std::size_t specimen = 0;  // the piece of the actuator on the bench, by Dataset::specimens
 };
 
 struct Run : Recorded {
@@ -158,6 +164,9 @@ struct Dataset {
   // One standard deviation relative to the declared value: 0 exact, kUnknown free.
   std::array<double, kDeclaredCount> relative_uncertainty{};
   std::vector<std::string> holdout;  // ids of runs that no fit may see
+  // Names of the pieces of the actuator; empty of the common piece of runs that name none. None
+  // where no run names one.
+  std::vector<std::string> specimens;
   std::vector<MeasuredNumber> measured;
   bool as_written = false;  // the record is as it was meant, though it looks like a slip of the pen
 };

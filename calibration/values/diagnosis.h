@@ -47,22 +47,31 @@ struct MeasuredEstimate {
   bool at_bound = false;                      // ended where the search ends: not fixed
 };
 
+// A factor on a declared number.
+struct FittedFactor {
+  Declared number = Declared::kRestVolume;
+  Estimate factor;
+  std::optional<std::size_t> specimen = {};  // of a number that each specimen has
+};
+
 // The numbers of one fit with their intervals.
 struct Estimates {
   std::vector<FittedEffect> effects;
-  std::vector<std::pair<Declared, Estimate>> fitted;  // factors times declared: see RenderDiagnosis
+  std::vector<FittedFactor> fitted;
   // Of the effects' parameters, in their order, then of the fitted factors; SI. From the curvature
   // of χ² at the optimum (calibration/fit/fit.h).
   std::vector<std::vector<double>> covariance;
   std::vector<MeasuredEstimate> measured;
 };
 
-// A declared number that is found wrong: `factor` times the declared one.
+// A declared number that is found wrong, of all runs or of one specimen: `factor` times the
+// declared one.
 struct WrongNumber {
   Declared number = Declared::kRestVolume;
   double factor = 1.0;
   std::optional<double> deviation_sigma;  // of the declared uncertainty, kExactUncertainty of none
   std::vector<std::string> instead_of;    // effects that would be named were all numbers right
+  std::optional<std::string> specimen = {};  // name of a piece that has the number for itself
 };
 
 // What the candidates fitted again to changed readings say of the names (names/stability.h).

@@ -23,11 +23,38 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
     case Parameter::Kind::kDeclared:
       break;
   }
-  return state.factor[static_cast<std::size_t>(parameter.declared)];
+  const auto at = static_cast<std::size_t>(parameter.declared);
+  if (OfEachSpecimen(state, parameter.declared))
+    return state.specimen_factor[at][parameter.specimen];
+  return state.factor[at];
 }
 
 double NumberOf(const ModelState& state, const Parameter& parameter) {
   return NumberOf(const_cast<ModelState&>(state), parameter);
+}
+
+bool OfEachSpecimen(const ModelState& state, Declared number) {
+  const auto at = static_cast<std::size_t>(number);
+  return at < state.specimen_factor.size() && !state.specimen_factor[at].empty();
+}
+
+Factors FactorsOf(const Run& run, const ModelState& state) {
+  Factors factors = state.factor;
+  for (std::size_t k = 0; k < state.specimen_factor.size(); ++k)
+    if (!state.specimen_factor[k].empty()) factors[k] = state.specimen_factor[k][run.specimen];
+  return factors;
+}
+
+bool Concerns(const Parameter& parameter, const Run& run, const ModelState& state) {
+  return parameter.specimen == run.specimen || !OfEachSpecimen(state, parameter.declared);
+}
+
+void SetFactor(Declared number, double factor, ModelState& state) {
+  const auto at = static_cast<std::size_t>(number);
+  state.factor[at] = factor;
+  if (!OfEachSpecimen(state, number)) return;
+  std::vector<double>& of_specimens = state.specimen_factor[at];
+  of_specimens.assign(of_specimens.size(), factor);
 }
 
 double AmbientShift(const Run& run, const ModelState& state) {

@@ -24,6 +24,9 @@ struct ModelState {
   ModelState() { factor.fill(1.0); }
 
   Factors factor;
+  // Of the actuator's own numbers a factor by specimen, in place of that in `factor`, where the
+  // data set has several specimens and the number is uncertain; else empty.
+  std::array<std::vector<double>, kOfActuator> specimen_factor;
   Freed freed{};  // which of them a fit moves as far as the readings ask, without a prior
   std::vector<model::Effect> effects;
   std::vector<double> measured;               // SI, by Dataset::measured
@@ -56,10 +59,27 @@ struct Parameter {
                                        // Dataset::measured; kLateness, kInstant: of the run's
                                        // commands
   std::size_t run = 0;                 // of one run's own number
+  std::size_t specimen = 0;            // kDeclared: of a number that each specimen has
   bool operator==(const Parameter&) const = default;
 };
 double& NumberOf(ModelState& state, const Parameter& parameter);
 double NumberOf(const ModelState& state, const Parameter& parameter);
+
+// Whether each specimen has a factor of its own on that number.
+bool OfEachSpecimen(const ModelState& state, Declared number);
+
+// The factors with which a run is simulated.
+Factors FactorsOf(const Run& run, const ModelState& state);
+
+// Whether a parameter on a declared number moves anything in the run.
+bool Concerns(const Parameter& parameter, const Run& run, const ModelState& state);
+
+inline bool SameFactors(const ModelState& a, const ModelState& b) {
+  return a.factor == b.factor && a.specimen_factor == b.specimen_factor;
+}
+
+// One factor for all runs and specimens.
+void SetFactor(Declared number, double factor, ModelState& state);
 
 // By how much the run's ambient pressure is above the declared one.
 double AmbientShift(const Run& run, const ModelState& state);
@@ -69,7 +89,9 @@ void CopyRun(const ModelState& from, std::size_t run, ModelState& to);
 
 // Every number that a model's curves follow from. What a run that no fit saw has of its own was
 // fitted to that run alone; where its line is of no other run, so were the factors on its pairs
-// (C, b), and `run_factor` differs from the state's.
+// (C, b), and `run_factor` differs from the state's. So it does where runs are of several
+// specimens: the state's factors on the actuator's own numbers are those of a piece that was not
+// fitted.
 struct StatedModel {
   ModelState state;
   std::vector<Factors> run_factor;                     // by run
@@ -80,6 +102,7 @@ struct StatedModel {
 inline ModelState OfRun(const StatedModel& model, std::size_t run) {
   ModelState state = model.state;
   state.factor = model.run_factor[run];
+  state.specimen_factor = {};
   return state;
 }
 

@@ -59,6 +59,7 @@ std::string Estimates(const Json& answer) {
       if (value.is_object()) AddEstimate(rows, id, name, value);
   }
   for (const auto& [name, value] : answer.at("fitted").items()) {
+    if (value.contains("specimen")) continue;  // in the table of the specimens
     const std::string unit = value.at("unit");
     AddEstimate(rows, "declared " + Short(value.at("declared")), WithUnit(name, unit), value);
   }
@@ -72,11 +73,25 @@ std::string Estimates(const Json& answer) {
                                                 rows);
 }
 
+std::string Specimens(const Json& answer) {
+  const std::vector<std::vector<std::string>> rows = SpecimenRows(answer);
+  if (rows.empty()) return "";
+  const std::string spread = SpreadInWords(answer);
+  return Heading("Specimens") +
+         HtmlTable({{"specimen", true},
+                    {"runs", true},
+                    {"number", true},
+                    {"value"},
+                    {"95 % interval"},
+                    {"unit", true}},
+                   rows) +
+         (spread.empty() ? "" : Paragraph(spread + ".", "faint"));
+}
+
 std::string WrongNumbers(const Json& answer) {
   std::vector<std::vector<std::string>> rows;
   for (const Json& number : answer.value("numbers", Json::array())) {
-    const std::string unit = number.at("unit");
-    const auto [name, spoken] = Spoken(WithUnit(number.at("name").get<std::string>(), unit));
+    const auto [name, spoken] = WrongNumberSpoken(number);
     rows.push_back({name, Short(number.at("declared")), Short(number.at("fitted")), spoken,
                     Short(number.at("deviation_sigma")),
                     EffectsText(number.at("instead_of"), Json::object())});
@@ -232,7 +247,8 @@ std::string DiagnosisReport(const Json& answer) {
     for (const Json& found : answer.value(field, Json::array()))
       if (const std::string words = found.value("words", ""); !words.empty())
         html += Paragraph(words, "found");
-  html += Errors(answer) + WrongNumbers(answer) + Estimates(answer) + NextRun(answer);
+  html += Errors(answer) + WrongNumbers(answer) + Estimates(answer) + Specimens(answer) +
+          NextRun(answer);
   if (!answer.at("series").empty()) html += Heading("Measured and model");
   for (const Json& series : answer.at("series")) html += RunPlots(series, noise_kpa);
   html += Residual(answer, noise_kpa) + Candidates(answer) + Stability(answer) +

@@ -117,6 +117,7 @@ Json RunDocument(const Json& document, const RecordedRun& recorded,
   const Json* described = RunOf(document, recorded.id);
   Json run = described == nullptr ? Json::object() : *described;
   run["id"] = recorded.id;
+  if (!recorded.specimen.empty()) run["specimen"] = recorded.specimen;
   if (!recorded.states.empty()) run["valve"] = ScheduleOf(recorded);
   run["t_s"] = ListOf(recorded.t_s);
   for (const auto& [field, values] : recorded.readings) {

@@ -30,6 +30,7 @@ inline constexpr std::array kValveFields = {kValveField, kInflateValveField, kDe
 
 struct RecordedRun {
   std::string id;
+  std::string specimen;    // empty: none is named
   std::vector<int> lines;  // of the readings
   std::vector<double> t_s;
   std::array<std::vector<ValveCell>, kValveFields.size()> valves;  // as kValveFields

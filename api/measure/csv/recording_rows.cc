@@ -47,6 +47,7 @@ class RowReader {
     if (cells.size() > table_.columns.size() || cells.size() < needed_) return FailWidth(cells);
     RecordedRun* run = RunOf(cells);
     if (run == nullptr) return;
+    TakeSpecimen(cells, *run);
     const auto t_s = TimeOf(cells, *run);
     if (!t_s) return;
     if (run->t_s.size() >= kRunSamplesMax)
@@ -119,6 +120,7 @@ class RowReader {
     }
     if (is_new)
       recording_.runs.push_back({.id = id,
+                                 .specimen = {},
                                  .lines = {},
                                  .t_s = {},
                                  .valves = {},
@@ -127,6 +129,17 @@ class RowReader {
                                  .clock = {},
                                  .has_clock = false});
     return &recording_.runs[found->second];
+  }
+
+  void TakeSpecimen(const CsvRow& cells, RecordedRun& run) {
+    const int column = recording_.ColumnOf(kSpecimenField);
+    if (column < 0) return;
+    const auto at = static_cast<std::size_t>(column);
+    const std::string name(Trimmed(cells[at]));
+    if (run.t_s.empty()) run.specimen = name;
+    if (run.specimen != name)
+      FailCell(at, "must be one for all rows of run " + Quoted(run.id) + ", which began with " +
+                       Quoted(run.specimen) + ", not " + Quoted(name));
   }
 
   std::optional<double> TimeOf(const CsvRow& cells, RecordedRun& run) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "server/render/text/text_remarks.h"
 #include "server/render/text/text_table.h"
@@ -65,11 +66,28 @@ std::string EstimatesTable(const Json& answer) {
   }
   std::string of = "declared";
   for (const auto& [name, value] : answer.at("fitted").items()) {
+    if (value.contains("specimen")) continue;  // in the table of the specimens
     const std::string unit = value.at("unit");
     AddEstimate(table, std::exchange(of, ""), WithUnit(name, unit), value);
     any = true;
   }
   return any ? table.Text() + "\n" : "";
+}
+
+// What each piece of the actuator has of its own.
+std::string SpecimensTable(const Json& answer) {
+  const std::vector<std::vector<std::string>> rows = SpecimenRows(answer);
+  if (rows.empty()) return "";
+  Table table({{"specimen", Align::kLeft},
+               {"runs", Align::kLeft},
+               {"number", Align::kLeft},
+               {"value"},
+               {"95 % interval"},
+               {"unit", Align::kLeft}},
+              2);
+  for (const std::vector<std::string>& row : rows) table.Add(row);
+  const std::string spread = SpreadInWords(answer);
+  return table.Text() + (spread.empty() ? "" : "  " + spread + "\n") + "\n";
 }
 
 // What was found, as sentences.
@@ -93,8 +111,7 @@ std::string NumbersTable(const Json& answer) {
                {"instead of", Align::kLeft}},
               2);
   for (const Json& number : numbers) {
-    const std::string unit = number.at("unit");
-    const auto [name, spoken] = Spoken(WithUnit(number.at("name").get<std::string>(), unit));
+    const auto [name, spoken] = WrongNumberSpoken(number);
     table.Add({name, Short(number.at("declared")), Short(number.at("fitted")), spoken,
                Short(number.at("deviation_sigma")),
                EffectsText(number.at("instead_of"), Json::object())});
@@ -250,6 +267,42 @@ std::string WithUnit(std::string name, const std::string& unit) {
   return name;
 }
 
+std::vector<std::vector<std::string>> SpecimenRows(const Json& answer) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& specimen : answer.value("specimens", Json::array())) {
+    const Json& name = specimen.at("name");
+    std::string shown = name.is_string() ? name.get<std::string>() : "without a name", runs;
+    for (const Json& run : specimen.at("runs"))
+      runs += (runs.empty() ? "" : ", ") + run.get<std::string>();
+    if (specimen.at("fitted").empty()) rows.push_back({shown, runs, "none fitted", "", "", ""});
+    for (const auto& [number, value] : specimen.at("fitted").items()) {
+      const auto [spoken, unit] = Spoken(WithUnit(number, value.at("unit").get<std::string>()));
+      const Json& interval = value.at("ci95");
+      rows.push_back({std::exchange(shown, ""), std::exchange(runs, ""), spoken,
+                      Short(value.at("value")), Short(interval[0]) + " to " + Short(interval[1]),
+                      unit});
+    }
+  }
+  return rows;
+}
+
+NameAndUnit WrongNumberSpoken(const Json& number) {
+  NameAndUnit spoken =
+      Spoken(WithUnit(number.at("name").get<std::string>(), number.at("unit").get<std::string>()));
+  if (const Json specimen = number.value("specimen", Json()); specimen.is_string())
+    spoken.name += " of " + specimen.get<std::string>();
+  return spoken;
+}
+
+std::string SpreadInWords(const Json& answer) {
+  std::string text;
+  const Json spread = answer.value("specimen_spread", Json::object());
+  for (const auto& [number, share] : spread.items())
+    text += fmt::format("{}{} {:.2g} %", text.empty() ? "" : ", ", Spoken(number).name,
+                        100.0 * share.get<double>());
+  return text.empty() ? text : "standard deviation between the specimens: " + text;
+}
+
 NameAndUnit Spoken(const std::string& parameter) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{
       {"_dm3_per_s_bar", "dm³/(s·bar)"},
@@ -300,8 +353,9 @@ std::string VerdictText(const Json& answer) {
 std::string DiagnosisText(const Json& answer) {
   std::string text = VerdictText(answer) + "\n\n" + SlipsText(answer) + FoundText(answer) +
                      ErrorsTable(answer) + HeldOutText(answer) + NumbersTable(answer) +
-                     EstimatesTable(answer) + TieText(answer) + CandidatesTable(answer) +
-                     StabilityTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
+                     EstimatesTable(answer) + SpecimensTable(answer) + TieText(answer) +
+                     CandidatesTable(answer) + StabilityTable(answer) + DiscrepancyText(answer) +
+                     ResidualText(answer);
   for (const Json& warning : answer.at("warnings"))
     text += "note: " + warning.get<std::string>() + "\n";
   return text + RemarksText(answer);

@@ -3,6 +3,7 @@
 #define PLENUM_SERVER_RENDER_TEXT_TEXT_DIAGNOSIS_H_
 
 #include <string>
+#include <vector>
 
 #include "api/json/json.h"
 
@@ -22,6 +23,12 @@ struct NameAndUnit {
   std::string name, unit;
 };
 NameAndUnit Spoken(const std::string& parameter);
+// What each piece of the actuator has of its own, in cells: specimen, runs, number, value,
+// interval, unit. And how far they differ, in words; empty of less than two.
+std::vector<std::vector<std::string>> SpecimenRows(const api::Json& answer);
+std::string SpreadInWords(const api::Json& answer);
+// The name of a wrong number as words, with the specimen that has it for itself; and its unit.
+NameAndUnit WrongNumberSpoken(const api::Json& number);
 // "creep + leak (porous)"; "none" for no effect.
 std::string EffectsText(const api::Json& effects, const api::Json& laws);
 // "explained", in capital letters first: the verdict and what it means.

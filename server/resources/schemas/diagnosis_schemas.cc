@@ -13,12 +13,21 @@ using api::Json;
 // Declared numbers that are named as wrong.
 Json NumbersSchema() {
   const Json text = {{"type", "string"}}, number = {{"type", {"number", "null"}}};
-  return ListOf(Object({{"name", text},
+  Json schema = Object({{"name", text},
                         {"declared", number},
                         {"fitted", number},
                         {"unit", text},
                         {"deviation_sigma", number},
-                        {"instead_of", ListOf(text)}}));
+                        {"instead_of", ListOf(text)}});
+  schema["properties"]["specimen"] = {{"type", {"string", "null"}}};  // where one has it for itself
+  return ListOf(std::move(schema));
+}
+
+// Pieces of the actuator, where runs name them.
+Json SpecimensSchema() {
+  const Json text = {{"type", "string"}}, name = {{"type", {"string", "null"}}};
+  return ListOf(Object(
+      {{"name", name}, {"runs", ListOf(text)}, {"fitted", {{"type", "object"}}}, {"words", text}}));
 }
 
 // What changed readings say of the names.
@@ -81,6 +90,8 @@ Json DiagnosisSchema() {
        {"measurement", {{"type", "object"}}},
        {"saved_part", Ref("schemas", "SavedPart")},
        {"numbers", NumbersSchema()},
+       {"specimens", SpecimensSchema()},
+       {"specimen_spread", {{"type", "object"}}},
        {"stability", StabilitySchema()},
        {"slips", ListOf(Object({{"what", text}, {"assume", text}}))},
        {"predicts_better",

@@ -75,7 +75,7 @@ TEST(StatedSensor, AModelIsFittedToWhatTheGaugeShows) {
   }
   const Diagnosis d = Diagnose(dataset, {});
   EXPECT_EQ(d.verdict, Verdict::kAdequate) << d.sentence;
-  for (const Estimate& factor : {d.fitted.front().second, d.fitted.back().second})
+  for (const Estimate& factor : {d.fitted.front().factor, d.fitted.back().factor})
     EXPECT_NEAR(factor.value, 1.0, 0.02);
 }
 

@@ -48,6 +48,23 @@ TEST(DiagnosisText, AnEmptyDiagnosisIsSaidToBeUndecided) {
   EXPECT_THAT(DiagnosisReport(answer), HasSubstr("Verdict: undecided."));
 }
 
+TEST(DiagnosisText, HasATableOfSpecimensAsTheReportHas) {
+  test::SampleDiagnosis sample = test::MakeSampleDiagnosis(801);
+  using calibration::Declared;
+  sample.dataset.specimens = {"thin", "thick", ""};
+  sample.dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)] = 0.1;
+  sample.dataset.runs.back().specimen = 1;
+  sample.diagnosis.fitted = {{Declared::kRestVolume, {0.9, 0.89, 0.91, true}, 0},
+                             {Declared::kRestVolume, {1.1, 1.09, 1.11, true}, 1}};
+  const Json answer = api::RenderDiagnosis(sample.diagnosis, sample.dataset);
+  for (const std::string& shown : {DiagnosisText(answer), DiagnosisReport(answer)}) {
+    EXPECT_THAT(shown, HasSubstr("thick"));
+    EXPECT_THAT(shown, HasSubstr("54.5 to 55.5"));
+    EXPECT_THAT(shown, HasSubstr("without a name"));
+    EXPECT_THAT(shown, HasSubstr("between the specimens: rest volume 14 %"));
+  }
+}
+
 TEST(DiagnosisReport, StandsAlone) {
   const std::string html = DiagnosisReport(Sample());
   for (const char* foreign : {"<script", "src=", "href=", "url(", "@import"})

@@ -7,6 +7,7 @@ export type ValveState = 'hold' | 'inflate' | 'deflate';
 
 export interface Run {
   id: string;
+  specimen?: string; // the piece of the actuator; left out: the common one
   blocked?: boolean;
   volume?: 'free' | 'imposed'; // imposed: channels.volume_ml drives it
   source_pressure_kpa_gauge?: number | string; // a text has its unit
@@ -43,6 +44,13 @@ export interface Estimate {
   value: number;
   ci95?: [number, number];
   identified?: boolean;
+}
+
+// A declared number as it was fitted.
+export interface FittedNumber extends Estimate {
+  declared: number;
+  unit: string;
+  specimen?: string | null; // whose it is, where each specimen has its own
 }
 
 export interface ErrorReport {
@@ -103,7 +111,16 @@ export interface WrongNumber {
   unit: string;
   deviation_sigma: number | null;
   instead_of: string[];
+  specimen?: string | null; // the piece that has the number for itself; null: without a name
   words?: string;
+}
+
+// A piece of the actuator, where runs name them, with what was fitted to its runs.
+export interface Specimen {
+  name: string | null; // null: of the runs that name none
+  runs: string[];
+  fitted: Record<string, FittedNumber>;
+  words: string;
 }
 
 // A number of a part that the runs measure; of a pump one for each pressure of its table.
@@ -151,6 +168,8 @@ export interface Diagnosis {
   held_out_fitted?: { run: string; numbers: string[] }[];
   effects: FittedEffect[];
   numbers?: WrongNumber[];
+  specimens?: Specimen[];
+  specimen_spread?: Record<string, number>; // standard deviation over the mean, by number
   measured?: MeasuredNumber[];
   measured_refused?: string[];
   saved_part?: SavedPart;
@@ -185,7 +204,7 @@ export interface Diagnosis {
       end_s: number;
     }[];
   };
-  fitted: Record<string, Estimate & { declared: number; unit: string }>;
+  fitted: Record<string, FittedNumber>;
   discrepancy: Discrepancy | null;
   unexplained_fraction: number;
   warnings: string[];

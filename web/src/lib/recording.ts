@@ -56,6 +56,7 @@ export const recordingFields = [
   't_s',
   'date',
   'run',
+  'specimen',
   'valve',
   'inflate_valve',
   'deflate_valve',

@@ -1,7 +1,13 @@
 // The effects that a diagnosis established, and the declared numbers as they were fitted.
 import { beside, fieldKind, fieldName, significant } from '../lib/format';
 import { effectName, effectNames } from '../lib/effect_words';
-import { type Diagnosis, type Estimate, type WrongNumber } from '../lib/measurement';
+import {
+  type Diagnosis,
+  type Estimate,
+  type FittedNumber,
+  type Specimen,
+  type WrongNumber,
+} from '../lib/measurement';
 import { type Kind, toShown } from '../lib/units';
 import { Panel } from '../ui/controls';
 import { number, Table } from '../ui/table';
@@ -71,9 +77,10 @@ function WrongNumbers({ numbers }: { numbers: WrongNumber[] }) {
           const { label, unit } = fieldName(field);
           const kind = fieldKind(field);
           return (
-            <tr key={n.name}>
+            <tr key={n.name + (n.specimen ?? '')}>
               <td>
-                {label} <small class="muted">{unit}</small>
+                {label} {n.specimen && `of ${n.specimen} `}
+                <small class="muted">{unit}</small>
               </td>
               <td class="num">{significant(toShown(kind, n.declared))}</td>
               <td class="num">{significant(toShown(kind, n.fitted))}</td>
@@ -86,17 +93,46 @@ function WrongNumbers({ numbers }: { numbers: WrongNumber[] }) {
   );
 }
 
-const sentence = (words: string): string => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
-
-export function Effects({ d }: { d: Diagnosis }) {
-  const fitted = Object.entries(d.fitted).map(([name, value]): [string, Estimate] => [
+const named = (numbers: Record<string, FittedNumber>): [string, FittedNumber][] =>
+  Object.entries(numbers).map(([name, value]) => [
     value.unit === '1' ? name : `${name}_${value.unit}`,
     value,
   ]);
+
+// Each piece of the actuator with the numbers of its own.
+function Specimens({ d, specimens }: { d: Diagnosis; specimens: Specimen[] }) {
+  const spread = Object.entries(d.specimen_spread ?? {}).map(
+    ([name, share]) => `${fieldName(name).label} ${significant(100 * share, 2)} %`,
+  );
+  return (
+    <>
+      <h3>Specimens</h3>
+      {specimens.map(({ name, runs, fitted, words }) => {
+        const rows = named(fitted);
+        const title = `${name ?? 'without a name'} (${runs.join(', ')})`;
+        return rows.length > 0 ? (
+          <EstimateTable key={name} name={title} of={title} rows={rows} />
+        ) : (
+          <p key={name}>
+            {title}: {words}.
+          </p>
+        );
+      })}
+      {spread.length > 0 && (
+        <p class="muted">Standard deviation between the specimens: {spread.join(', ')}.</p>
+      )}
+    </>
+  );
+}
+
+const sentence = (words: string): string => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
+
+export function Effects({ d }: { d: Diagnosis }) {
+  const fitted = named(d.fitted).filter(([, value]) => value.specimen === undefined);
   const numbers = d.numbers ?? [];
   return (
     <Panel title="What is added to the model">
-      {numbers.map((n) => n.words && <p key={n.name}>{sentence(n.words)}</p>)}
+      {numbers.map((n) => n.words && <p key={n.words}>{sentence(n.words)}</p>)}
       {numbers.length > 0 && <WrongNumbers numbers={numbers} />}
       {d.effects.length === 0 && numbers.length === 0 && (
         <p>
@@ -122,6 +158,7 @@ export function Effects({ d }: { d: Diagnosis }) {
           <EstimateTable name="declared numbers" of="declared number" rows={fitted} />
         </>
       )}
+      {d.specimens && <Specimens d={d} specimens={d.specimens} />}
     </Panel>
   );
 }

@@ -41,7 +41,7 @@ function ColumnRow(props: {
         />
       </td>
       <td>
-        {field && field !== 'run' && field !== 'date' && (
+        {field && !['run', 'specimen', 'date'].includes(field) && (
           <UnitInput of={column.key} target={field} unit={unit} onTarget={props.onAnswer} />
         )}
       </td>

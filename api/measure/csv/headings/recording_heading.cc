@@ -38,14 +38,18 @@ Target TargetOf(std::string_view field, std::string_view unit, Gauge gauge) {
   return target;
 }
 
+bool IsTextField(std::string_view field) {
+  return field == kRunField || field == kSpecimenField || field == kDateField;
+}
+
 // The fields of a phrase that may have its unit.
 std::vector<Target> TargetsOf(const HeadingPhrase& phrase, Gauge gauge) {
   std::vector<Target> targets;
   const std::string unit = SpelledUnit(phrase.unit);
   for (const std::string_view field : FieldsNamed(phrase.words)) {
     const bool plain =
-        phrase.in_brackets && (SaysNoUnit(unit) || IsValveField(field) || field == kRunField ||
-                               field == kDateField || (field == kTimeField && IsClockFormat(unit)));
+        phrase.in_brackets && (SaysNoUnit(unit) || IsValveField(field) || IsTextField(field) ||
+                               (field == kTimeField && IsClockFormat(unit)));
     if (plain)
       targets.push_back(TargetOf(field, "", gauge));
     else if (IsUnitOf(field, unit))
@@ -113,8 +117,7 @@ catalog::GivenTarget ParseRecordingTarget(std::string_view text) {
   if (!text.ends_with("]")) return {{}, "the bracket behind " + target.column + " is not closed"};
   target.unit = Trimmed(text.substr(open + 1, text.size() - open - 2));
   if (target.unit.empty() || IsValveField(target.column)) return {std::move(target), ""};
-  if (target.column == kRunField || target.column == kDateField)
-    return {{}, target.column + " has no unit"};
+  if (IsTextField(target.column)) return {{}, target.column + " has no unit"};
   const MarkedText marked = TakeGaugeMark(target.unit);
   if (IsPressureField(target.column) && marked.text.empty()) return {std::move(target), ""};
   if (IsPressureField(target.column) && IsRawUnit(SpelledUnit(marked.text)))

@@ -16,6 +16,7 @@ enum class Means {
   kTimeOrTemperature,
   kDate,
   kRun,
+  kSpecimen,
   kValve,
   kFill,  // also a valve on its own
   kVent,
@@ -58,6 +59,8 @@ constexpr Word kWords[] = {
     {"versuch", Means::kRun},
     {"lauf", Means::kRun},
     {"messung", Means::kRun},
+    {"specimen", Means::kSpecimen},
+    {"pruefling", Means::kSpecimen},
     {"valve", Means::kValve},
     {"ventil", Means::kValve},
     {"magnetventil", Means::kValve},
@@ -188,6 +191,7 @@ std::vector<std::string_view> FieldsOfSetpoint(std::set<Means> meanings) {
 
 const std::vector<std::string>& RecordingFields() {
   static const std::vector<std::string> kFields = {"run",
+                                                   "specimen",
                                                    "date",
                                                    "t_s",
                                                    "valve",
@@ -246,6 +250,7 @@ std::vector<std::string_view> FieldsNamed(std::string_view words) {
   }
   if (has(Means::kTimeOrTemperature)) return {kTimeField, kTemperatureField};
   if (has(Means::kRun)) return {kRunField};
+  if (has(Means::kSpecimen)) return {kSpecimenField};
   if (has(Means::kDate)) return {kDateField};
   return {};
 }

@@ -10,8 +10,9 @@ namespace plenum::api {
 
 // Fields of a recording: columns of the documented CSV, two valves instead of one, and a date
 // beside a clock.
-inline constexpr std::string_view kRunField = "run", kDateField = "date", kTimeField = "t_s",
-                                  kValveField = "valve", kInflateValveField = "inflate_valve",
+inline constexpr std::string_view kRunField = "run", kSpecimenField = "specimen",
+                                  kDateField = "date", kTimeField = "t_s", kValveField = "valve",
+                                  kInflateValveField = "inflate_valve",
                                   kDeflateValveField = "deflate_valve",
                                   kPressureField = "pressure_kpa_gauge",
                                   kSourcePressureField = "source_pressure_kpa_gauge",
