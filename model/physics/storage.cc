@@ -38,9 +38,8 @@ double UsableEnergy(double capacity_ah, double nominal_voltage_v) {
 }
 
 bool VoltageMatches(double pack_voltage_v, double pump_voltage_v) {
-  return pump_voltage_v == 0.0 ||
-         std::abs(pack_voltage_v - pump_voltage_v) <=
-         (kVoltageTolerance + kRounding) * pump_voltage_v;
+  return pump_voltage_v == 0.0 || std::abs(pack_voltage_v - pump_voltage_v) <=
+                                      (kVoltageTolerance + kRounding) * pump_voltage_v;
 }
 
 double CylinderCharge(double water_volume_m3, double fill_pressure_pa, double temperature_k) {

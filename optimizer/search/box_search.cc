@@ -1,7 +1,6 @@
 #include "optimizer/search/box_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "optimizer/bounds/leaf_sizing.h"
@@ -52,7 +51,7 @@ class BoxSearch {
   Listed List() {
     lists_ = true;
     Enumerate();
-    Listed listed{{}, !stopped() && std::isinf(undecided_bound_), steps_};
+    Listed listed{{}, !stopped() && undecided_bound_ == kUnlimited, steps_};
     for (const Found& found : ranking_.list()) {
       if (static_cast<int>(listed.combinations.size()) == problem_.count) break;
       listed.combinations.push_back(
@@ -253,7 +252,7 @@ class BoxSearch {
 
   // Found by a dive alone it has no record yet, and its box is still open.
   void Undecided(double bound, int record) {
-    if (record >= 0 || !options_.record) ++proof_.undecided;
+    proof_.undecided += record >= 0 || !options_.record;
     undecided_bound_ = std::min(undecided_bound_, bound);
     if (record >= 0) recorder_.Close(record, {.kind = BoxKind::kUndecided, .bound = bound});
   }
@@ -267,8 +266,8 @@ class BoxSearch {
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
     const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
-    const auto due = Due(problem_, configurations_.planted(), slow, sought_);
-    SeekFirst(problem_, due, options_, SearchBoxes, watch_, bench_.stop, ranking_);
+    SeekFirst(problem_, Due(problem_, configurations_.planted(), slow, sought_), options_,
+              SearchBoxes, watch_, bench_.stop, ranking_);
   }
 
   // With a third of the time gone good designs are sought by depth first, in case time runs out.

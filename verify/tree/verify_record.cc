@@ -254,12 +254,12 @@ bool FlowMustBeEqual(const Problem& problem, const Layout& layout) {
   if (layout.own_regulators && std::none_of(problem.groups.begin(), problem.groups.end(), in_parts))
     return false;
   if (!IsPumped(configuration)) return MayOverlap(problem);
+  const std::vector<model::Compressor>& pumps = PumpsOf(problem, configuration);
   return (UnitsOf(problem).size() > 1 && KeepsReservoir(configuration)) ||
-         !std::all_of(PumpsOf(problem, configuration).begin(),
-                      PumpsOf(problem, configuration).end(), [&](const model::Compressor& pump) {
-                        return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,
-                                                model::HighestPressure(pump.curve)) == 1.0;
-                      });
+         !std::all_of(pumps.begin(), pumps.end(), [&](const model::Compressor& pump) {
+           return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,
+                                   model::HighestPressure(pump.curve)) == 1.0;
+         });
 }
 
 void CheckRecord(const Problem& problem, const Answer& answer, const Stop& stop, Findings& findings,

@@ -133,11 +133,11 @@ class Planter {
   bool LinesMeet() const {
     if (!IsPumped(plan_->configuration)) return SquadsOverlap();
     if (KeepsReservoir(plan_->configuration) && MeetingOf(problem_) != Meeting::kAlone) return true;
-    return !std::all_of(PumpsOf(problem_, plan_->configuration).begin(), PumpsOf(problem_, plan_->configuration).end(),
-                        [&](const model::Compressor& c) {
-                          return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
-                                                   model::HighestPressure(c.curve));
-                        });
+    const std::vector<model::Compressor>& pumps = PumpsOf(problem_, plan_->configuration);
+    return !std::all_of(pumps.begin(), pumps.end(), [&](const model::Compressor& c) {
+      return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
+                               model::HighestPressure(c.curve));
+    });
   }
 
   // With regulators of their own only squads of one group have a regulator in common.
