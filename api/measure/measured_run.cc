@@ -223,8 +223,8 @@ void TakeMeasured(const std::vector<MeasuredInRig>& rig, std::vector<MeasuredNum
 std::string ReadSpecimen(Reader& owner) {
   owner.Describe("specimen",
                  {{"type", "string"}, {"minLength", 1}, {"maxLength", kSpecimenCharactersMax}});
+  if (!owner.Has("specimen")) return "";
   const Json* given = owner.Raw("specimen");
-  if (given == nullptr || given->is_null()) return "";
   if (!given->is_string()) {
     owner.Fail("specimen", "must be the name of the piece of the actuator that was measured, not " +
                                KindOf(*given));

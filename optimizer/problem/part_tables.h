@@ -50,6 +50,10 @@ inline double LetBy(const model::Valve& valve) {
          std::sqrt(1.0 - most.critical_ratio);
 }
 inline double PumpVoltage(const model::Compressor& pump) { return pump.curve.voltage_v; }
+// Without any vacuum.
+inline double SuctionFlow(const model::Compressor& ejector) {
+  return ejector.curve.free_air_m3_per_s.y().front();
+}
 inline double PumpPressure(const model::Compressor& pump) { return pump.curve.pressure_max_pa; }
 inline double FullPressure(const model::Cylinder& cylinder) {  // at most
   return cylinder.fill_pressure_pa + cylinder.fill_pressure_spread_pa;
@@ -147,6 +151,9 @@ inline constexpr PartField kVacuumPumpFields[] = {
 };
 
 inline constexpr PartField kEjectorFields[] = {
+    {.name = "suction_flow_l_per_min_anr",
+     .use = Use::kRule,
+     .of = read::kEjector<&read::SuctionFlow>},
     {.name = "air_consumption_l_per_min_anr",
      .use = Use::kLess,
      .of = read::kEjector<&model::Compressor::air_consumption_m3_per_s>,

@@ -67,6 +67,16 @@ std::optional<GuaranteeRequest> ReadGuarantee(Reader& request,
   return guarantee;
 }
 
+namespace {
+
+// Ways to evacuate; other such configurations are refused by name.
+bool NotGuaranteedYet(optimizer::Configuration configuration) {
+  return configuration == optimizer::Configuration::kDirectVacuumPump ||
+         optimizer::IsEjector(configuration);
+}
+
+}  // namespace
+
 std::string WhyNotGuaranteed(const optimizer::Problem& problem, const GuaranteeRequest& guarantee) {
   // What contracts more holds less air at first and more of it towards the deepest vacuum.
   if (optimizer::Evacuated(problem) &&
@@ -82,6 +92,10 @@ std::string WhyNotGuaranteed(const optimizer::Problem& problem, const GuaranteeR
   if (problem.configurations.contains(optimizer::Configuration::kDirectPump))
     return "is not for pumps without a reservoir yet: leave direct_pump out of "
            "/supply/configurations";
+  if (!problem.configurations.empty() &&
+      std::all_of(problem.configurations.begin(), problem.configurations.end(), NotGuaranteedYet))
+    return "is for vacuum pumps with a reservoir and for the wall's vacuum: pumps without a "
+           "reservoir and ejectors are not guaranteed yet, and the request asks for nothing else";
   if (std::string why = WhyGaitNotGuaranteed(problem); !why.empty()) return why;
   if (problem.groups.size() > 1 && problem.simultaneous)
     return "is for one group and for groups that take turns (/duty/simultaneous false): where "
@@ -97,11 +111,7 @@ optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
                                      const Settled& settled) {
   optimizer::Problem guaranteed = problem;
   guaranteed.guarantee = optimizer::Guarantee{guarantee.tolerance.estimated};
-  // Not guaranteed yet, and not asked for by name.
-  for (const auto configuration :
-       {optimizer::Configuration::kDirectVacuumPump, optimizer::Configuration::kEjector,
-        optimizer::Configuration::kDirectEjector})
-    guaranteed.configurations.erase(configuration);
+  std::erase_if(guaranteed.configurations, NotGuaranteedYet);
   for (std::size_t g = 0; g < guarantee.groups.size(); ++g) {
     const model::Chamber& printed = problem.groups[g].chamber;
     guaranteed.groups[g].chamber = Resized(printed, guarantee.groups[g], kDeviations);

@@ -1,7 +1,6 @@
 #include "api/design/read/worst_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -175,7 +174,7 @@ model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<c
   worst.reserve(rows.size());
   for (const catalog::Part& row : rows) worst.push_back(AtWorst(row, tolerance, settled));
   model::Parts parts = ModelPartsFor(problem, worst);
-  std::array<std::size_t, static_cast<std::size_t>(optimizer::Family::kManifold) + 1> seen{};
+  std::vector<std::size_t> seen(optimizer::Families().size());
   for (const catalog::Part& row : rows) {
     for (const optimizer::FamilySpec& spec : optimizer::Families()) {
       // Reservoirs as tanks: a guarantee has none (guarantee.h).

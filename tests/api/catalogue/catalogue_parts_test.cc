@@ -119,7 +119,10 @@ TEST(FamilyTables, AgreeWithTheCatalogue) {
                                       "vacuum_pump.power_min_w",
                                       "vacuum_pump.power_max_w",
                                       "vacuum_pump.pressure_max_kpa_gauge",
-                                      "manifold.critical_ratio"};
+                                      "manifold.critical_ratio",
+                                      "ejector.supply_pressure_kpa_gauge",  // of the selection
+                                      "ejector.nozzle_diameter_mm",
+                                      "ejector.stages"};
   const model::Ambient ambient{.pressure_pa = 90e3, .temperature_k = 293.15};
   for (const optimizer::FamilySpec& spec : optimizer::Families()) {
     SCOPED_TRACE(spec.name);

@@ -63,10 +63,11 @@ TEST(Parts, EverySeedPartRoundTripsAndConverts) {
   EXPECT_EQ(parts.tubing.size() + parts.fittings.size() + parts.valves.size() +
                 parts.compressors.size() + parts.batteries.size() + parts.cylinders.size() +
                 parts.co2.size() + parts.regulators.size() + parts.reservoirs.size() +
-                parts.vacuum_pumps.size() + parts.manifolds.size(),
+                parts.vacuum_pumps.size() + parts.manifolds.size() + parts.ejectors.size(),
             static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const auto& part) {
-              const bool complete = (part.family != "vacuum_pump" || StandsVacuum(part)) &&
-                                    (part.family != "manifold" || IsJoint(part));
+              const bool vacuum = part.family == "vacuum_pump" || part.family == "ejector";
+              const bool complete =
+                  (!vacuum || StandsVacuum(part)) && (part.family != "manifold" || IsJoint(part));
               return complete && UseInSearch(part.family, "price_eur") == "adds up";
             })));
 }

@@ -83,7 +83,8 @@ TEST(RenderAnswer, HasEveryFieldOfTheContract) {
                                   "inflate_time_s": 0.46, "frequency_hz_max": 0.98,
                                   "peak_kpa_gauge": 101.5}],
                       "frequency_hz_sustained": 0.12, "air_per_actuation_l_anr": 0.15,
-                      "air_total_l_anr": 900.0, "run_time_s": 10000.0})"));
+                      "air_total_l_anr": 900.0, "run_time_s": 10000.0,
+                      "compressed_air_l_per_min_anr": null})"));
   EXPECT_EQ(design["margins"],
             Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.5,
                        "achieved": 0.44, "relative_margin": 0.12, "binding": false}])"));

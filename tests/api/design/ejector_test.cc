@@ -138,18 +138,29 @@ TEST(EjectorTest, IsAskedForByNameOrByItsAir) {
   request["supply"].erase("mains");
   EXPECT_NE(ErrorsIn(request).find("/supply/mains is required by the ejectors"), std::string::npos);
   request["supply"].erase("vacuum");
-  std::set<std::string> asked;
+  using optimizer::Configuration;
   const auto configurations = [&] {
-    std::set<std::string> names;
-    for (const Json& one : Answered(request)["by_configuration"])
-      names.insert(one["configuration"]);
-    return names;
+    return std::get<DesignRequest>(ParseRequirements(request, Project().parts))
+        .problem.configurations;
   };
-  request["ranking"]["proof"] = false;
-  EXPECT_EQ(configurations(), (std::set<std::string>{"vacuum_pump", "direct_vacuum_pump"}));
+  const std::set<Configuration> pumps{Configuration::kVacuumPump, Configuration::kDirectVacuumPump};
+  EXPECT_EQ(configurations(), pumps);
   request["supply"]["mains"] = {{"pressure_kpa_gauge", 600.0}};
-  EXPECT_EQ(configurations(), (std::set<std::string>{"vacuum_pump", "direct_vacuum_pump", "ejector",
-                                                     "direct_ejector"}));
+  std::set<Configuration> all = pumps;
+  all.insert({Configuration::kEjector, Configuration::kDirectEjector});
+  EXPECT_EQ(configurations(), all);
+}
+
+// Neither ejectors nor pumps without a reservoir are guaranteed: alone they are refused.
+TEST(EjectorTest, AGuaranteeOfEjectorsAloneIsRefused) {
+  Json request = Asked();
+  request["guarantee"] = true;
+  EXPECT_NE(ErrorsIn(request).find("/guarantee is for vacuum pumps with a reservoir"),
+            std::string::npos);
+  request["supply"]["vacuum"]["configurations"] = {"pump"};
+  EXPECT_EQ(ErrorsIn(request), "");
+  request["supply"]["pumps"] = "per_group";
+  EXPECT_NE(ErrorsIn(request).find("/guarantee"), std::string::npos);
 }
 
 }  // namespace ejector_test
