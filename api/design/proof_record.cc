@@ -207,7 +207,8 @@ optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
        Configuration::kEjector, Configuration::kDirectEjector});
   optimizer::ProofRecord record;
   record.count = reader.Integer("count", 1, 1'000'000);
-  for (const Element& element : reader.List("plans", 0, 2 * optimizer::kConfigurations)) {
+  for (const Element& element :
+       reader.List("plans", 0, std::size_t{2} * optimizer::kConfigurations)) {
     Reader given(element, reader.errors());
     ProofPlan plan;
     plan.configuration = ReadName(given, "configuration", kConfigurations);

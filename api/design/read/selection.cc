@@ -9,6 +9,7 @@
 #include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
 #include "api/json/request_limits.h"
+#include "api/json/units.h"
 #include "api/json/words.h"
 #include "catalog/fields/price.h"
 #include "optimizer/problem/family_specs.h"

@@ -52,6 +52,7 @@ std::vector<Together> TogetherOf(const Problem& problem, const Candidate& candid
   if (!HasOwnRegulators(candidate) && !own_pumps) return {{0, groups}};
   const bool each_actuator = own_pumps && problem.pump_feed == PumpFeed::kPerActuator;
   std::vector<Together> each;
+  each.reserve(problem.groups.size());
   for (int g = 0; g < groups; ++g)
     each.push_back({g, g + 1, each_actuator ? problem.groups[g].count : 1});
   return each;
