@@ -258,8 +258,7 @@ Constraint Bounds::FindStockSource(Box& box) {
   if (PumpEnergyRises(problem_, candidate)) {
     const Evaluation least = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     if (least.failed) return Constraint::kNone;
-    const double duty_max =
-        PumpsOf(problem_, plan_.configuration)[candidate.compressor.index].duty_max;
+    const double duty_max = ChosenPump(problem_, candidate).duty_max;
     if (!(least.compressor_duty <= duty_max)) return Constraint::kPump;
     // Of several groups each look at another pressure would be a simulation.
     const bool cheap = MeetingOf(problem_) == Meeting::kAlone;

@@ -102,8 +102,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   if (candidate.configuration == Configuration::kMains)
     window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
   if (candidate.compressor.index != kNone && IsPumped(candidate.configuration)) {
-    const model::CompressorCurve& curve =
-        PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+    const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
     window.high_pa = std::min(window.high_pa, model::HighestPressure(curve));
   }
   if (candidate.reservoir.index >= 0)
@@ -201,7 +200,7 @@ model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidat
   input.fill = &fill;
   input.chamber = &line.chamber;
   input.count = count;
-  input.compressor = &PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  input.compressor = &ChosenPump(problem, candidate).curve;
   input.compressors = candidate.compressor.quantity;
   input.from_pa = problem.ambient.pressure_pa;
   input.target_pa = RiseTarget(problem, problem.groups[g]);

@@ -64,6 +64,11 @@ struct OperatingPointOf {
 };
 using OperatingPoint = OperatingPointOf<double>;
 
+// The pumps of a candidate that has them, one piece.
+inline const model::Compressor& ChosenPump(const Problem& problem, const Candidate& candidate) {
+  return PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
+}
+
 enum class LeafStatus { kFeasible, kInfeasible, kUndecided };
 
 // Whether all valves can hold.

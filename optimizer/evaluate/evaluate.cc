@@ -64,9 +64,8 @@ template <class T>
 T SourceFrequency(const Problem& problem, const Candidate& candidate,
                   const EvaluationOf<T>& evaluation) {
   if (IsPumped(candidate.configuration)) {
-    T by_duty = problem.frequency_hz *
-                PumpsOf(problem, candidate.configuration)[candidate.compressor.index].duty_max /
-                evaluation.compressor_duty;
+    T by_duty =
+        problem.frequency_hz * ChosenPump(problem, candidate).duty_max / evaluation.compressor_duty;
     if (KeepsReservoir(candidate.configuration)) return by_duty;
     return std::min(by_duty, TurnFrequency(problem, evaluation));
   }
@@ -108,8 +107,7 @@ T LargestCurrent(const model::CompressorCurve& curve, double low_pa, const T& st
 template <class T>
 void AddPump(const Problem& problem, const Candidate& candidate, const OperatingPointOf<T>& point,
              const StrokesOf<T>& strokes, EvaluationOf<T>& evaluation) {
-  const model::CompressorCurve& curve =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
   const double ambient_pa = problem.ambient.pressure_pa;
   evaluation.compressor_duty = strokes.pump_on_s * problem.frequency_hz;
   evaluation.energy_per_cycle_j += strokes.pump_energy_j;
@@ -128,8 +126,7 @@ void AddPump(const Problem& problem, const Candidate& candidate, const Operating
 template <class T>
 void AddRefill(const Problem& problem, const Candidate& candidate, const OperatingPointOf<T>& point,
                EvaluationOf<T>& evaluation) {
-  const model::CompressorCurve& curve =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
   const double air_m3 = model::ValueOf(evaluation.air_per_cycle_m3);
   OperatingPoint at{model::ValueOf(point.source_pa)};
   at.pump_stop_pa = point.pump_stop_pa;

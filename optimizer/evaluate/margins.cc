@@ -24,8 +24,7 @@ MarginOf<T> AtLeast(std::string pointer, double limit, const T& achieved) {
 
 template <class T>
 MarginOf<T> CompressedAirMargin(const Problem& problem, const Candidate& candidate) {
-  const model::Compressor& ejector =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
+  const model::Compressor& ejector = ChosenPump(problem, candidate);
   return AtMost<T>(
       "/supply/mains/flow_l_per_min_anr_max",
       kLPerMinPerM3PerS * problem.compressed_air.flow_max_m3_per_s,

@@ -11,12 +11,8 @@ namespace {
 constexpr double kTolerance = 1e-9;        // of the fill
 constexpr double kAboveKept = 1.0 + 1e-4;  // a fill that is just what is kept decides nothing
 
-const model::Compressor& PumpOf(const Problem& problem, const Candidate& candidate) {
-  return PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
-}
-
 double StopCurrent(const Problem& problem, const Candidate& candidate, double stop_pa) {
-  return candidate.compressor.quantity * model::LargestCurrent(PumpOf(problem, candidate).curve,
+  return candidate.compressor.quantity * model::LargestCurrent(ChosenPump(problem, candidate).curve,
                                                                problem.ambient.pressure_pa,
                                                                stop_pa);
 }
@@ -28,7 +24,7 @@ double CapacityM3PerPa(const Problem& problem, const Candidate& candidate) {
 // Objective that the next pascal of the fill saves by the energy of pumps, less what its air
 // weighs.
 double WorthPerPa(const Problem& problem, const Candidate& candidate, double stop_pa) {
-  const model::CompressorCurve& curve = PumpOf(problem, candidate).curve;
+  const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
   const double flow_m3_per_s = model::FreeAirDelivery(curve, stop_pa);
   const double power_w =
       curve.voltage_v * model::LargestCurrent(curve, problem.ambient.pressure_pa, stop_pa);
@@ -46,7 +42,7 @@ bool RefillsTank(const Candidate& candidate) {
 
 model::Refill RefillOf(const Problem& problem, const Candidate& candidate,
                        const OperatingPoint& point, double air_per_cycle_m3) {
-  const model::Compressor& pump = PumpOf(problem, candidate);
+  const model::Compressor& pump = ChosenPump(problem, candidate);
   model::RefillInput input;
   input.compressor = &pump.curve;
   input.compressors = candidate.compressor.quantity;

@@ -208,9 +208,7 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
   std::vector<ReservoirNeed> needs;
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return needs;
-  const PumpLimits limits{
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].duty_max, energy_max_j,
-      true};
+  const PumpLimits limits{ChosenPump(problem, candidate).duty_max, energy_max_j, true};
   const PumpLoad load = MakePumpLoad(problem, candidate.lines);
   for (bool last = false; !last;) {
     const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);

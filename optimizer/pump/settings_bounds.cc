@@ -73,8 +73,7 @@ double MostAbove(const Problem& problem, const Candidate& candidate, const Setti
 // what of the energy is left out since the pressures of the box lie apart.
 double BoundPumps(const Problem& problem, const Candidate& candidate, const PumpTrend& trend,
                   const SettingsBox& box, const Strokes& low, Strokes& least) {
-  const model::CompressorCurve& curve =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
   const double excess_m3 =
       low.from_full || AllHold(candidate)
           ? std::max(0.0, low.pump_air_m3 - AirPerCycle(problem, candidate, low))
@@ -99,8 +98,7 @@ double BoundPumps(const Problem& problem, const Candidate& candidate, const Pump
 
 PumpTrend MakePumpTrend(const Problem& problem, const Candidate& candidate) {
   PumpTrend trend;
-  const model::CompressorCurve& curve =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
   const double low_pa = problem.ambient.pressure_pa;
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   trend.rises = EnergyPerAirRises(curve, low_pa, high_pa);

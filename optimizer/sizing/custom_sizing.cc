@@ -28,9 +28,8 @@ double Width(double low, double high) { return high / low - 1.0; }
 }  // namespace
 
 std::vector<ReservoirNeed> NeedsOfCandidate(const Problem& problem, const Candidate& candidate) {
-  const PumpFacts facts = MakePumpFacts(
-      problem, PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve,
-      candidate.compressor.quantity);
+  const PumpFacts facts =
+      MakePumpFacts(problem, ChosenPump(problem, candidate).curve, candidate.compressor.quantity);
   double energy_j = kUnlimited;
   if (candidate.battery.index != kNone) {
     const model::Battery& battery = problem.parts.batteries[candidate.battery.index];

@@ -188,8 +188,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
     if (SmallestMargin(problem, candidate, point, simulated) >= 0.0) evaluation = simulated;
     return true;
   }
-  const double duty_max =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].duty_max;
+  const double duty_max = ChosenPump(problem, candidate).duty_max;
   return strokes.pump_on_s * problem.frequency_hz <= duty_max * (1.0 + kConfirmTolerance);
 }
 

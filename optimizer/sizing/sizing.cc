@@ -41,8 +41,8 @@ bool OneAtATime(const Problem& problem, const Candidate& candidate, const Evalua
 
 SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return {};
-  return {PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve,
-          problem.ambient.pressure_pa, SourceWindow(problem, candidate).high_pa};
+  return {ChosenPump(problem, candidate).curve, problem.ambient.pressure_pa,
+          SourceWindow(problem, candidate).high_pa};
 }
 
 // Source pressures at a fixed volume, by branch and bound over intervals: an interval takes at
@@ -217,8 +217,7 @@ double SmallestMargin(const Problem& problem, const Candidate& candidate,
 
 bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
-  const model::CompressorCurve& curve =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = ChosenPump(problem, candidate).curve;
   const double low_pa = problem.ambient.pressure_pa;
   if (HasTank(candidate.configuration)) return true;  // as their energy is counted
   const double high_pa = SourceWindow(problem, candidate).high_pa;

@@ -84,8 +84,7 @@ bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
 
 bool VoltagesMatch(const Problem& problem, const Candidate& candidate) {
   const double pack_v = problem.parts.batteries[candidate.battery.index].nominal_voltage_v;
-  const model::Compressor& pump =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
+  const model::Compressor& pump = ChosenPump(problem, candidate);
   if (IsEjector(candidate.configuration))
     return candidate.compressor.quantity * FeedsByHand(problem) * pump.air_consumption_m3_per_s <=
            problem.compressed_air.flow_max_m3_per_s;

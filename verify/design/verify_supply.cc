@@ -210,12 +210,9 @@ std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
   if (a.tank)
     at_most("/supply/tank_fill_kpa_gauge_max", gauge(problem.tank_fill_max_pa),
             gauge(settings.tank_fill_pa.value_or(0.0)), kSumTolerance);
-  if (a.pump())
-    at_most("/supply/mains/flow_l_per_min_anr_max",
-            6e4 * problem.compressed_air.flow_max_m3_per_s *
-                (a.pump()->air_consumption_m3_per_s > 0.0 ? 1.0 : kUnlimited),
-            6e4 * a.compressors * FeedsOf(problem) * a.pump()->air_consumption_m3_per_s,
-            kSumTolerance);
+  if (IsEjector(a.configuration))
+    at_most("/supply/mains/flow_l_per_min_anr_max", 6e4 * problem.compressed_air.flow_max_m3_per_s,
+            6e4 * CompressedAir(problem, *a.pump(), a.compressors), kSumTolerance);
   const Totals slack = SlackOf(problem, a, settings);
   at_most("/supply/mass_kg_max", problem.mass_max_kg, totals.mass_kg + slack.mass_kg,
           kSumTolerance);

@@ -15,10 +15,6 @@ namespace {
 // pressure fills up to it, as the closed forms say.
 constexpr double kLinearRatio = 1.0 - 1e-9;
 
-const model::CompressorCurve& PumpCurve(const Problem& problem, const Candidate& candidate) {
-  return PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
-}
-
 }  // namespace
 
 model::Gas GasOf(Configuration configuration) {
@@ -82,7 +78,8 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     source.initial_pressure_pa = LastPeriodPa(problem, candidate, point.source_pa);
     rig.source = source;
   } else if (IsDirect(candidate.configuration)) {
-    rig.source = model::PumpSource{PumpCurve(problem, candidate), candidate.compressor.quantity};
+    rig.source =
+        model::PumpSource{ChosenPump(problem, candidate).curve, candidate.compressor.quantity};
   } else if (!KeepsReservoir(candidate.configuration)) {
     rig.source =
         model::RegulatedSource{PressureOf(point, first),
@@ -93,7 +90,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     source.volume_m3 = point.reservoir_m3;
     source.volume_rising_m3 = point.reservoir_rising_m3;
     source.initial_pressure_pa = point.source_pa;
-    source.compressor = PumpCurve(problem, candidate);
+    source.compressor = ChosenPump(problem, candidate).curve;
     source.compressor_count = candidate.compressor.quantity;
     source.stop_pressure_pa = point.source_pa;
     rig.source = source;

@@ -154,7 +154,7 @@ model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candid
   input.fill = &candidate.lines[g]->curve->flow;
   input.chamber = &candidate.lines[g]->chamber;
   input.count = count;
-  input.compressor = &PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  input.compressor = &ChosenPump(problem, candidate).curve;
   input.compressors = candidate.compressor.quantity;
   input.stop_pa = point.source_pa;
   input.volume_falling_m3 = point.reservoir_m3;

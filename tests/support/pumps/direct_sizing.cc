@@ -139,7 +139,7 @@ Filling FillingOf(const Problem& problem, const Candidate& candidate, std::size_
   const Line& line = *candidate.lines[g];
   const double ambient_pa = problem.ambient.pressure_pa;
   Filling filling;
-  filling.curve = PumpsOf(problem, candidate.configuration)[candidate.compressor.index].curve;
+  filling.curve = ChosenPump(problem, candidate).curve;
   filling.elements = line.fill;
   filling.chamber = line.chamber;
   filling.pumps = candidate.compressor.quantity;
@@ -242,8 +242,7 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
   leaf.status = optimizer::LeafStatus::kInfeasible;
   const double period_s = 1.0 / problem.frequency_hz;
   const std::vector<Fills> fills = FillsOf(problem);
-  const model::Compressor& pump =
-      PumpsOf(problem, candidate.configuration)[candidate.compressor.index];
+  const model::Compressor& pump = ChosenPump(problem, candidate);
   const model::Battery& pack = problem.parts.batteries[candidate.battery.index];
   std::vector<double> on_s(candidate.lines.size(), 0.0);  // of each group's pumps; [0]: of all
   const bool shared = problem.pump_feed == optimizer::PumpFeed::kShared;

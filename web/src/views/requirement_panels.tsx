@@ -15,6 +15,12 @@ const configurations: { value: Configuration; label: string }[] = [
   { value: 'direct_pump', label: 'Pump without a reservoir' },
 ];
 
+const giveWall = (on: boolean): void =>
+  edit(
+    ['supply', 'mains'],
+    on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
+  );
+
 export function Supply() {
   const supply = requirements.value.supply ?? {};
   const chosen = supply.configurations ?? ['cylinder', 'co2', 'compressor'];
@@ -23,11 +29,7 @@ export function Supply() {
       .map((c) => c.value)
       .filter((c) => (c === name ? on : chosen.includes(c)));
     edit(['supply', 'configurations'], next);
-    if (name === 'mains')
-      edit(
-        ['supply', 'mains'],
-        on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
-      );
+    if (name === 'mains') giveWall(on);
     if (!next.some(hasTank)) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
     if (name === 'direct_pump' && !on) edit(['supply', 'pumps'], undefined);
   };
@@ -48,11 +50,7 @@ export function Supply() {
       configurations: sources,
       ...(sources.includes('mains') && { mains: mains ?? { pressure_kpa_gauge: -80 } }),
     });
-    if (source === 'ejector')
-      edit(
-        ['supply', 'mains'],
-        on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
-      );
+    if (source === 'ejector') giveWall(on);
   };
   return (
     <Panel title="Supply">
