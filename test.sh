@@ -26,6 +26,7 @@ run_tests() {  # run_tests PRESET [ARGUMENTS OF CTEST]; a table of durations: bu
 long_tests() {
   tests/fuzz/run.sh 600
   PLENUM_KILLS=150 PLENUM_KILL_WRITES=6000 build/release/server_tests --gtest_filter='Kill.*'
+  PLENUM_FAULTS_TOTAL=10000 python3 -B tests/server/faults/faults_test.py . build/release/plenum build/release/tests/libplenum_faults.so
   build bench batch_tests
   build/bench/batch_tests --gtest_brief=1
   tests/deploy/packages_test.sh

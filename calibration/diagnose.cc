@@ -13,6 +13,7 @@
 #include "calibration/learn/discrepancy.h"
 #include "calibration/learn/slips.h"
 #include "calibration/names/measured_numbers.h"
+#include "calibration/names/record_warnings.h"
 #include "calibration/names/stability.h"
 #include "calibration/names/without_names.h"
 #include "calibration/names/wrong_numbers.h"
@@ -197,7 +198,7 @@ class Diagnosing {
     diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
     if (!base_->fit.Usable()) StateDeclared(bench_, diagnosis_);
     if (!base_->fit.Usable() && Stopped()) {
-      diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
+      diagnosis_.sentence = Sentence(bench_, search_, WhatIsOpen(evidence), diagnosis_);
       return;
     }
     if (!base_->fit.Usable()) {
@@ -208,11 +209,9 @@ class Diagnosing {
     Weigh(1.0, evidence);
     diagnosis_.verdict = Judge(evidence);
     if (diagnosis_.verdict == Verdict::kAdequate && bench_.data.clocks &&
-        bench_.data.runs.size() == 1u && !Stopped())
+        IsOneRecording(bench_.data) && !Stopped())
       ConsiderEffectsForTheClock(evidence);
-    const bool named =
-        diagnosis_.verdict == Verdict::kExplained || diagnosis_.verdict == Verdict::kTie;
-    if (named) {
+    if (IsNamed(diagnosis_.verdict)) {
       evidence.imitated = IsImitated();
       diagnosis_.verdict = Judge(evidence);
     }
@@ -251,7 +250,10 @@ class Diagnosing {
     if (diagnosis_.verdict != Verdict::kUndecided)
       static_cast<Estimates&>(diagnosis_) =
           EstimatesOf(bench_, shown->fit, IntervalsFrom::kProfile);
-    if (bench_.held_out.empty()) TakeLeftOut(evidence);
+    if (bench_.held_out.empty()) {  // those of runs left out in turn
+      diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
+      diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
+    }
     WithdrawLearned(diagnosis_);
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
@@ -266,14 +268,15 @@ class Diagnosing {
     AddSeries(bench_, diagnosis_);
     AddWarnings(bench_, diagnosis_);
     AddReasons(search_, memory_, open ? tied_ : std::vector<const Contender*>{shown}, doubt,
-               diagnosis_);
+               rival_.as_good, diagnosis_);
     AddLimits(bench_, shown->fit, diagnosis_);
-    diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
+    diagnosis_.sentence = Sentence(bench_, search_, WhatIsOpen(evidence), diagnosis_);
   }
 
   // Where structure is left: the choice again, by what readings that remember each other are worth.
   void ChooseBesideStructure(Evidence& evidence) {
     const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
+    const EffectSet before = Chosen().effects;
     const Fit base = base_->fit;
     Reweigh(bench_.data, bench_.tight, memory, search_.contenders);
     search_.chosen = StandingBesideSubsets(bench_.data, bench_.tight, memory, search_.contenders);
@@ -281,10 +284,13 @@ class Diagnosing {
     Weigh(memory, evidence);
     search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
     KeepEstablished(evidence);
-    if (evidence.complete && IsTieBesideStructure(evidence)) {
-      evidence.imitated = IsImitated();
-      if (!evidence.imitated) diagnosis_.verdict = Verdict::kTie;
-    }
+    if (!evidence.complete || (evidence.imitated && Chosen().effects == before)) return;
+    evidence.imitated = false;
+    rival_ = {};
+    const Verdict again = JudgeBesideStructure(evidence);
+    if (again == Verdict::kUnexplained) return;
+    evidence.imitated = IsImitated();
+    if (!evidence.imitated) diagnosis_.verdict = again;
   }
 
   // A term for what is left, beside the chosen set where that is established; whether it is shows
@@ -323,12 +329,6 @@ class Diagnosing {
     return joined && !evidence.imitated ? "" : "does not hold when the readings are changed";
   }
 
-  // Where no run is held out the errors are those of runs left out in turn.
-  void TakeLeftOut(const Evidence& evidence) {
-    diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
-    diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
-  }
-
   void Propose() {
     Progress(0.96, "a run that would decide");
     Proposal proposal = ProposalFor(bench_, tied_, by_the_clock_);
@@ -339,11 +339,12 @@ class Diagnosing {
 
   const Contender& Chosen() const { return search_.contenders[search_.chosen]; }
 
-  // One learned term does as well as the several effects chosen.
-  bool IsImitated() const {
+  // A learned term does better than the several effects chosen, or as well with fewer numbers.
+  bool IsImitated() {
     if (Chosen().effects.size() < 2u || Stopped()) return false;
     Progress(0.94, "what else would do as well");
-    return TermRivals(bench_.data, base_->fit, Chosen().fit, bench_.tight);
+    rival_ = RivalOf(bench_.data, base_->fit, Chosen().fit, bench_.tight);
+    return rival_.instead;
   }
 
   // Beside structure a set of a tie must account for most of the residual itself: among few
@@ -380,6 +381,7 @@ class Diagnosing {
   const Contender* base_ = nullptr;
   std::vector<const Contender*> tied_;  // the chosen set first
   double memory_ = 1.0;                 // of the residuals that the choice was made by
+  Rival rival_;                         // of the chosen set
   Fit by_the_clock_;                    // usable if the clock of the only run does as well as they
   Diagnosis diagnosis_;
 };

@@ -35,26 +35,56 @@ def mass_flow(conductance, ratio, upstream_pa, downstream_pa, upstream_k):
     return choked * math.sqrt(max(0.0, 1.0 - ((over - ratio) / (1.0 - ratio)) ** 2))
 
 
+def end_slope(near, far, first, second):
+    """Of a table at its end: widths and slopes of the last two pieces."""
+    slope = ((2.0 * near + far) * first - near * second) / (near + far)
+    if slope * first <= 0.0:
+        return 0.0
+    return 3.0 * first if first * second <= 0.0 and abs(slope) > 3.0 * abs(first) else slope
+
+
+def slopes_of(points):
+    """Of a curve through the points that is monotone where they are (Fritsch and Carlson)."""
+    widths = [b[0] - a[0] for a, b in zip(points, points[1:])]
+    secants = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(points, points[1:])]
+    if len(points) < 3:
+        return secants * 2
+    inner = []
+    for k in range(1, len(points) - 1):
+        first, second = 2.0 * widths[k] + widths[k - 1], widths[k] + 2.0 * widths[k - 1]
+        turns = secants[k - 1] * secants[k] <= 0.0
+        inner.append(0.0 if turns else
+                     (first + second) / (first / secants[k - 1] + second / secants[k]))
+    return [end_slope(widths[0], widths[1], secants[0], secants[1]), *inner,
+            end_slope(widths[-1], widths[-2], secants[-1], secants[-2])]
+
+
 def delivery(points, gauge_pa):
-    """Free air of a pump, m3/s, straight between the points (Pa, m3/s), nothing beyond them."""
+    """Free air of a pump, m3/s, smooth between the points (Pa, m3/s, slope), nothing beyond them."""
     if gauge_pa >= points[-1][0]:
         return 0.0
-    for (low_pa, low), (high_pa, high) in zip(points, points[1:]):
+    for (low_pa, low, low_slope), (high_pa, high, high_slope) in zip(points, points[1:]):
         if gauge_pa <= high_pa:
-            share = max(0.0, (gauge_pa - low_pa) / (high_pa - low_pa))
-            return low + share * (high - low)
+            width = high_pa - low_pa
+            t = max(0.0, (gauge_pa - low_pa) / width)
+            s = 1.0 - t
+            return (s * s * ((1.0 + 2.0 * t) * low + t * width * low_slope)
+                    + t * t * ((1.0 + 2.0 * s) * high - s * width * high_slope))
     return 0.0
 
 
 def read_pump(text):
-    pairs = [item.split(":") for item in text.split(",")] if text else []
-    return [(1e3 * float(kpa), float(l_per_min) / 6e4) for kpa, l_per_min in pairs]
+    if not text:
+        return []
+    pairs = [item.split(":") for item in text.split(",")]
+    points = [(1e3 * float(kpa), float(l_per_min) / 6e4) for kpa, l_per_min in pairs]
+    return [(*point, slope) for point, slope in zip(points, slopes_of(points))]
 
 
-def volume_of(template):
-    """Of the bottle, with the tube and the space behind a pump, m3."""
+def volume_of(template, run):
+    """Of the run's bottle, with the tube and the space behind a pump, m3."""
     rig = template["rig"]
-    volume_ml = rig["actuator"]["rest_volume_ml"]
+    volume_ml = {**rig["actuator"], **run.get("rig", {}).get("actuator", {})}["rest_volume_ml"]
     volume_ml += float(str(rig["supply"].get("reservoir_volume_ml", 0.0)).split()[0])
     for element in rig["line"]["elements"]:
         tube = element.get("tube", {"inner_diameter_mm": 0.0, "length_m": 0.0})
@@ -120,7 +150,7 @@ def main():
     parser.add_argument("--noise-kpa", type=float, default=0.2)
     parser.add_argument("--resolution-kpa", type=float, default=0.1)
     parser.add_argument("--sampling-hz", type=float, default=50.0)
-    parser.add_argument("--volume-error", type=float, default=0.001, help="of the weighed bottle")
+    parser.add_argument("--volume-error", type=float, default=0.001, help="of the first bottle as it was weighed")
     parser.add_argument("--heat-s", type=float, default=12.0, help="time constant of the wall")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
@@ -129,17 +159,20 @@ def main():
     draw = random.Random(options.seed)
     actuator = template["rig"]["actuator"]
     highest_pa = AMBIENT_PA + 1e3 * actuator["operating_pressure_kpa_gauge"]
-    volume_m3 = volume_of(template) * (1.0 + options.volume_error)
-    rig = {"volume_m3": volume_m3,
-           "pump": read_pump(options.pump),
+    first_m3 = volume_of(template, template["runs"][0]) * (1.0 + options.volume_error)
+    first_w_per_k = highest_pa * first_m3 / ((KAPPA - 1.0) * AMBIENT_K * options.heat_s)
+    rig = {"pump": read_pump(options.pump),
            "fill": (1e-8 * options.fill_c, options.fill_b),
            "exhaust": (1e-8 * (options.exhaust_c or options.fill_c),
-                       options.fill_b if options.exhaust_b is None else options.exhaust_b),
-           "wall_w_per_k": highest_pa * volume_m3 / ((KAPPA - 1.0) * AMBIENT_K * options.heat_s)}
+                       options.fill_b if options.exhaust_b is None else options.exhaust_b)}
     print("# simulated by examples/simulate_bottle_test.py, not measured", file=sys.stderr)
     rows = csv.writer(sys.stdout, lineterminator="\n")
     rows.writerow(["run", "t_s", "valve", "pressure_kpa_gauge"])
     for run in template["runs"]:
+        rig["volume_m3"] = volume_of(template, run)
+        if "rig" not in run:  # another bottle is as large as it was weighed
+            rig["volume_m3"] *= 1.0 + options.volume_error
+        rig["wall_w_per_k"] = first_w_per_k * (rig["volume_m3"] / first_m3) ** (2.0 / 3.0)
         rig["source_pa"] = AMBIENT_PA + 1e3 * run.get("source_pressure_kpa_gauge", 0.0)
         end_s = run["valve"][-1]["t_s"] + 5.0
         for t_s, state, gauge_pa in record(run, rig, options.sampling_hz, end_s):

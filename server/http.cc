@@ -1,10 +1,8 @@
 #include "server/http.h"
 
 #include <malloc.h>
-#include <sys/socket.h>
 
-#include <chrono>
-#include <thread>
+#include <csignal>
 #include <utility>
 
 #include "server/call/protection.h"
@@ -19,7 +17,7 @@
 #include "server/resources/diagnoses_resource.h"
 #include "server/resources/routes.h"
 #include "server/wire/connections.h"
-#include "server/wire/protocol.h"
+#include "server/wire/listener.h"
 
 namespace plenum::server {
 
@@ -42,12 +40,11 @@ struct HttpService::Impl {
                        given.catalog, given.docs, given.seed, [this] { MeasureConnections(); }})),
         requests({HostsOf(given), NeedsToken(given), given.log,
                   RenderLimits(QuotaOf(given.jobs), KeptOf(given))},
-                 routes, tokens, metrics, protocol, [this] { connections.Wake(); }),
+                 routes, tokens, metrics, [this] { connections.Wake(); }),
         connections(HandlersOfConnections()) {
     // Large blocks go back to the system when they are freed.
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
     mallopt(M_ARENA_MAX, 4);
-    protocol.admit = [this](int socket) { connections.Admit(socket); };
     jobs->OnChange([this] { connections.Wake(); });
   }
 
@@ -63,15 +60,13 @@ struct HttpService::Impl {
   Handlers HandlersOfConnections() {
     return {
         [this](Incoming request, Outgoing& out) { return requests.Take(std::move(request), out); },
-        [this](const std::string& head, const std::string& peer) {
+        [this](const RequestHead& head, const std::string& peer) {
           return requests.RefusalOf(head, peer);
         },
         [this](const Refusal& refusal, const std::string& peer) {
           return requests.RefusalText(refusal, peer);
         },
-        [](const std::string& head) {
-          return head.starts_with("GET /healthz ") || head.starts_with("GET /readyz ");
-        }};
+        [](const RequestHead& head) { return head.path == "/healthz" || head.path == "/readyz"; }};
   }
 
   static catalog::JobsKept KeptOf(const HttpOptions& given) {
@@ -79,21 +74,11 @@ struct HttpService::Impl {
   }
 
   int Bind() {
-    protocol.set_tcp_nodelay(true);
-    // The default shares a port with whoever listens there already.
-    protocol.set_socket_options([](socket_t socket) {
-      const int on = 1;
-      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    });
-    const bool any = options.port == 0;
-    const int bound = any ? protocol.bind_to_any_port(options.host)
-                      : protocol.bind_to_port(options.host, options.port) ? options.port
-                                                                          : -1;
+    const int bound = listener.Bind(options.host, options.port);
     if (bound <= 0) {
       throw ListenError("cannot listen at " + options.host + " port " +
                         std::to_string(options.port) + ": is it taken by another program?");
     }
-    protocol.WidenBacklog();
     return bound;
   }
 
@@ -110,7 +95,7 @@ struct HttpService::Impl {
   }
 
   const HttpOptions options;
-  Protocol protocol;
+  Listener listener;
   const int port;
   TokenKeeper tokens;
   Metrics metrics;
@@ -123,22 +108,23 @@ struct HttpService::Impl {
   Connections connections;
 };
 
-HttpService::HttpService(const HttpOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+// A client, or whoever reads the log, that has gone is an error of one write, not of the process.
+HttpService::HttpService(const HttpOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  std::signal(SIGPIPE, SIG_IGN);
+}
 HttpService::~HttpService() = default;
 
 int HttpService::port() const { return impl_->port; }
 
 void HttpService::Run() {
   impl_->connections.Start(kRequestThreads);
-  impl_->protocol.listen_after_bind();
+  impl_->listener.Run([this](int socket) { impl_->connections.Admit(socket); });
   impl_->connections.Stop();
 }
 
 void HttpService::Stop() {
   impl_->jobs->Stop();
-  // A stop before the listening has begun would be lost.
-  while (!impl_->protocol.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  impl_->protocol.stop();
+  impl_->listener.Stop();
 }
 
 }  // namespace plenum::server

@@ -32,23 +32,30 @@ bool IsLarge(const Call& call) {
   return facets || limit.size() > 3 || std::atoi(limit.c_str()) > kLargePageParts;
 }
 
-bool HasBody(const httplib::Request& request) {
-  return request.has_header("Transfer-Encoding") ||
-         (request.has_header("Content-Length") &&
-          request.get_header_value("Content-Length").find_first_not_of('0') != std::string::npos);
+bool HasBody(const RequestHead& head) {
+  return head.Field("Transfer-Encoding") ||
+         head.Field("Content-Length").value_or("").find_first_not_of('0') != std::string::npos;
+}
+
+// What a resource that takes `methods` answers to OPTIONS, and says with 405 (RFC 9110, 10.2.1).
+std::string WithImplied(std::string methods) {
+  if (methods.find("GET") != std::string::npos) methods += ", HEAD";
+  return methods + ", OPTIONS";
+}
+
+Reply OptionsReply(const std::string& methods) {
+  Reply reply{204, "", "", {{"Allow", methods}}, {}};
+  return reply;
 }
 
 }  // namespace
 
 struct RequestHandler::Exchange {
   Header header() const {
-    return [this](const char* name) -> std::optional<std::string> {
-      if (!request.has_header(name)) return std::nullopt;
-      return request.get_header_value(name);
-    };
+    return [this](const char* name) { return request.head.Field(name); };
   }
 
-  httplib::Request request;
+  Incoming request;
   AnswerForm form;
   Clock::time_point start = Clock::now();
   std::size_t bytes_in = 0;
@@ -65,27 +72,19 @@ struct RequestHandler::Exchange {
 };
 
 RequestHandler::RequestHandler(HandlerOptions options, const std::vector<Route>& routes,
-                               TokenKeeper& tokens, Metrics& metrics, Protocol& protocol,
-                               std::function<void()> wake)
+                               TokenKeeper& tokens, Metrics& metrics, std::function<void()> wake)
     : options_(std::move(options)),
       routes_(routes),
       tokens_(tokens),
       metrics_(metrics),
-      protocol_(protocol),
       large_(kLargeMax, kLargeWaitingMax, std::move(wake)) {}
 
 Handled RequestHandler::Take(Incoming request, Outgoing& out) {
-  std::string refusal;
-  const auto exchange = Open(std::move(request), refusal);
-  if (exchange) return Proceed(exchange, out);
-  out.Write(std::move(refusal));
-  return {};
+  return Proceed(Open(std::move(request)), out);
 }
 
-std::string RequestHandler::RefusalOf(const std::string& head, const std::string& peer) {
-  std::string refusal;
-  const auto exchange = Open({head, "", peer, true}, refusal);
-  if (!exchange) return refusal;
+std::string RequestHandler::RefusalOf(const RequestHead& head, const std::string& peer) {
+  const auto exchange = Open({head, "", peer, true});
   std::optional<Reply> refused;
   try {
     refused = Refuse(*exchange);
@@ -96,32 +95,29 @@ std::string RequestHandler::RefusalOf(const std::string& head, const std::string
   return AnswerText(*refused);
 }
 
-// The exchange, or the refusal of a request that cannot be read.
-RequestHandler::ExchangePtr RequestHandler::Open(Incoming request, std::string& refusal) {
-  const std::string peer = request.peer;
-  const bool is_last = request.is_last;
-  auto read = protocol_.Read(std::move(request));
-  if (const int* status = std::get_if<int>(&read)) {
-    refusal = RefusalText({*status, "", "the request could not be read"}, peer);
-    return nullptr;
-  }
+RequestHandler::ExchangePtr RequestHandler::Open(Incoming request) {
   auto exchange = std::make_shared<Exchange>();
-  exchange->request = std::get<httplib::Request>(std::move(read));
-  exchange->client = exchange->request.remote_addr;
+  exchange->request = std::move(request);
+  const RequestHead& head = exchange->request.head;
+  exchange->client = exchange->request.peer;
   exchange->bytes_in = exchange->request.body.size();
-  exchange->form = {exchange->request.method == "HEAD", exchange->request.version != "HTTP/1.0",
-                    is_last || ClosesAfter(exchange->request)};
+  exchange->form = {head.method == "HEAD", head.minor_version > 0,
+                    exchange->request.is_last || ClosesAfter(head)};
   return exchange;
 }
 
 // Why what a head asks for gets no answer. Sets the route and who asks.
 std::optional<Reply> RequestHandler::Refuse(Exchange& exchange) {
-  const httplib::Request& request = exchange.request;
+  const RequestHead& head = exchange.request.head;
   const Header header = exchange.header();
-  if (auto refused = RefuseForeign(header, options_.allow_hosts)) return refused;
-  if (request.path.size() > kPathBytesMax)
+  if (auto refused = RefuseForeign(header, options_.allow_hosts)) {
+    exchange.form.closes = true;
+    return refused;
+  }
+  if (head.path.size() > kPathBytesMax)
     return LimitReply(414, "path_bytes_max", kPathBytesMax, "the path is too long");
-  if (request.has_header("Content-Encoding") || request.is_multipart_form_data())
+  if (head.Field("Content-Encoding") ||
+      head.Field("Content-Type").value_or("").starts_with("multipart/form-data"))
     return ProblemReply(415, "send the body itself: no Content-Encoding, no form");
   if (auto refused = FindRoute(exchange)) return refused;
   const Access access = exchange.route->access;
@@ -131,18 +127,19 @@ std::optional<Reply> RequestHandler::Refuse(Exchange& exchange) {
     exchange.user = std::get<Token>(token).name;
     exchange.client = std::get<Token>(token).id;
   }
-  const bool takes_body = request.method == "POST" || request.method == "PUT";
-  if (takes_body && HasBody(request)) return RefuseContentType(header, exchange.route->types);
+  const bool takes_body = head.method == "POST" || head.method == "PUT";
+  if (takes_body && HasBody(head)) return RefuseContentType(header, exchange.route->types);
   return std::nullopt;
 }
 
 std::optional<Reply> RequestHandler::FindRoute(Exchange& exchange) {
-  const httplib::Request& request = exchange.request;
-  const std::string method = request.method == "HEAD" ? "GET" : request.method;
+  const RequestHead& head = exchange.request.head;
+  if (head.path == "*") return OptionsReply("GET, HEAD, POST, PUT, DELETE, OPTIONS");
+  const std::string method = head.method == "HEAD" ? "GET" : head.method;
   std::string allowed;
   for (const Route& candidate : routes_) {
     std::string argument;
-    if (!Matches(candidate, request.path, argument)) continue;
+    if (!Matches(candidate, head.path, argument)) continue;
     exchange.pattern = candidate.path;
     if (candidate.method == method) {
       exchange.route = &candidate;
@@ -151,8 +148,10 @@ std::optional<Reply> RequestHandler::FindRoute(Exchange& exchange) {
     }
     allowed += (allowed.empty() ? "" : ", ") + candidate.method;
   }
-  if (allowed.empty()) return ProblemReply(404, "there is no " + request.path);
-  auto reply = ProblemReply(405, request.path + " takes " + allowed);
+  if (allowed.empty()) return ProblemReply(404, "there is no " + head.path);
+  allowed = WithImplied(std::move(allowed));
+  if (head.method == "OPTIONS") return OptionsReply(allowed);
+  auto reply = ProblemReply(405, head.path + " takes " + allowed);
   reply.headers.emplace_back("Allow", allowed);
   return reply;
 }
@@ -204,9 +203,9 @@ std::optional<Reply> RequestHandler::Try(Exchange& exchange) {
 std::optional<Reply> RequestHandler::Run(Exchange& exchange) {
   if (exchange.later) return exchange.later();
   if (auto refused = Refuse(exchange)) return refused;
-  const httplib::Request& request = exchange.request;
-  const Call call{exchange.argument, request.params, exchange.header(), request.body,
-                  request.path,      exchange.user,  exchange.client};
+  const Incoming& request = exchange.request;
+  const Call call{exchange.argument, request.head.query, exchange.header(), request.body,
+                  request.head.path, exchange.user,      exchange.client};
   if (IsLarge(call)) {
     call.turn = large_.Enter(exchange.ticket);
     const bool waits =
@@ -225,8 +224,8 @@ std::optional<Reply> RequestHandler::Run(Exchange& exchange) {
 
 void RequestHandler::LogFault(const Exchange& exchange, const std::string& what) {
   Log({{"level", "error"},
-       {"method", exchange.request.method},
-       {"path", exchange.request.path},
+       {"method", exchange.request.head.method},
+       {"path", exchange.request.head.path},
        {"fault", what}});
 }
 
@@ -246,13 +245,13 @@ Reply RequestHandler::FaultReply(const Exchange& exchange, const std::string& wh
   if (fault == catalog::StoreFault::kStorage)
     return ProblemReply(
         507,
-        "the catalogue cannot be written or read: its disk is full or fails, or its "
-        "server is away; "
-        "nothing was changed");
+        "the catalogue cannot be written or read: its disk is full or fails; nothing was changed");
   if (fault == catalog::StoreFault::kOther)
     return ProblemReply(500, "a fault of the program; its log says more");
   auto reply = ProblemReply(
-      503, "the catalogue is being written by another for too long; nothing was changed");
+      503, fault == catalog::StoreFault::kAway
+               ? "the catalogue's server cannot be reached; nothing was changed"
+               : "the catalogue is being written by another for too long; nothing was changed");
   reply.headers.emplace_back("Retry-After", "5");
   return reply;
 }
@@ -295,14 +294,14 @@ void RequestHandler::Finish(Exchange& exchange, Reply reply, Outgoing& out) {
 void RequestHandler::Record(const Exchange& exchange, const Reply& reply) {
   const double seconds = std::chrono::duration<double>(Clock::now() - exchange.start).count();
   const std::size_t bytes_out = reply.body_size();
-  metrics_.Count(exchange.request.method, exchange.pattern, reply.status, seconds,
+  metrics_.Count(exchange.request.head.method, exchange.pattern, reply.status, seconds,
                  exchange.bytes_in, bytes_out);
   if (!options_.log) return;
   Log({{"level", "info"},
-       {"peer", exchange.request.remote_addr},
+       {"peer", exchange.request.peer},
        {"user", exchange.user},
-       {"method", exchange.request.method},
-       {"path", exchange.request.path.substr(0, kPathBytesMax)},
+       {"method", exchange.request.head.method},
+       {"path", exchange.request.head.path.substr(0, kPathBytesMax)},
        {"route", exchange.pattern},
        {"status", reply.status},
        {"bytes_in", exchange.bytes_in},

@@ -13,8 +13,8 @@
 #include "server/call/tokens.h"
 #include "server/resources/route.h"
 #include "server/wire/exchange.h"
-#include "server/wire/protocol.h"
-#include "server/wire/request_frame.h"
+#include "server/wire/refusal.h"
+#include "server/wire/request_head.h"
 
 namespace plenum::server {
 
@@ -29,11 +29,11 @@ class RequestHandler {
  public:
   // `wake` is called when a request that waits for its turn may have it.
   RequestHandler(HandlerOptions options, const std::vector<Route>& routes, TokenKeeper& tokens,
-                 Metrics& metrics, Protocol& protocol, std::function<void()> wake);
+                 Metrics& metrics, std::function<void()> wake);
 
   Handled Take(Incoming request, Outgoing& out);
   // The refusal of a request whose body is still to come, if its head is enough for one.
-  std::string RefusalOf(const std::string& head, const std::string& peer);
+  std::string RefusalOf(const RequestHead& head, const std::string& peer);
   // A whole answer to what never became a request.
   std::string RefusalText(const Refusal& refusal, const std::string& peer);
   // Of large answers on their way.
@@ -43,7 +43,7 @@ class RequestHandler {
   struct Exchange;
   using ExchangePtr = std::shared_ptr<Exchange>;
 
-  ExchangePtr Open(Incoming request, std::string& refusal);
+  static ExchangePtr Open(Incoming request);
   std::optional<Reply> Refuse(Exchange& exchange);
   std::optional<Reply> FindRoute(Exchange& exchange);
   Handled Proceed(const ExchangePtr& exchange, Outgoing& out);
@@ -61,7 +61,6 @@ class RequestHandler {
   const std::vector<Route>& routes_;
   TokenKeeper& tokens_;
   Metrics& metrics_;
-  Protocol& protocol_;
   Gate large_;
   ByteBudget answers_{kAnswerBytesMax};
 };

@@ -98,6 +98,13 @@ struct PumpTable {
   }
 };
 
+// Of a pump that lets air back while it is off: the check valve that it needs is not known here.
+std::optional<double> CheckValveCracking(const catalog::Part& row) {
+  const auto found = row.texts.find("check_valve");
+  if (found == row.texts.end() || found->second.value != "no") return std::nullopt;
+  return 0.0;
+}
+
 // Over mirrored pressures (model/physics/chamber.h), from ambient up.
 std::optional<model::Compressor> VacuumPump(const catalog::Part& row,
                                             const model::Ambient& ambient) {
@@ -112,7 +119,8 @@ std::optional<model::Compressor> VacuumPump(const catalog::Part& row,
                            .curve = table.Curve(Required(row, "voltage_v"),
                                                 std::min(PaFromKpaGauge(-deepest_kpa, ambient),
                                                          DeepestImagePa(ambient))),
-                           .duty_max = Optional(row, "duty_max").value_or(1.0)};
+                           .duty_max = Optional(row, "duty_max").value_or(1.0),
+                           .check_valve_cracking_pa = CheckValveCracking(row)};
 }
 
 // An ejector's suction falls in a straight line from its flow without vacuum to its deepest one.
@@ -135,7 +143,8 @@ model::Compressor Compressor(const catalog::Part& row, const model::Ambient& amb
   return {.basics = Basics(row),
           .curve = table.Curve(Required(row, "voltage_v"),
                                Pressure(row, "pressure_max_kpa_gauge", ambient)),
-          .duty_max = Required(row, "duty_max")};
+          .duty_max = Required(row, "duty_max"),
+          .check_valve_cracking_pa = CheckValveCracking(row)};
 }
 
 model::Battery Battery(const catalog::Part& row) {
@@ -185,6 +194,24 @@ model::Manifold Manifold(const catalog::Part& row, const model::Ambient& ambient
           .sonic_conductance_m3_per_s_pa =
               ConductanceFromDm3PerSBar(Required(row, "sonic_conductance_dm3_per_s_bar")),
           .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+}
+
+model::CheckValve CheckValve(const catalog::Part& row, const model::Ambient& ambient) {
+  return {.basics = Basics(row),
+          .sonic_conductance_m3_per_s_pa =
+              ConductanceFromDm3PerSBar(Required(row, "sonic_conductance_dm3_per_s_bar")),
+          .cracking_pressure_pa = kPaPerKpa * Required(row, "cracking_pressure_kpa_gauge"),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+}
+
+// Without one of these it is not known what it takes from a pump.
+constexpr const char* kCheckValveNumbers[] = {
+    "sonic_conductance_dm3_per_s_bar", "cracking_pressure_kpa_gauge", "pressure_max_kpa_gauge",
+    "mass_kg", "body_volume_ml"};
+
+bool Has(const catalog::Part& row, std::span<const char* const> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [&](const char* field) { return row.numbers.contains(field); });
 }
 
 bool IsFlow(optimizer::Use use) {
@@ -241,6 +268,8 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
       if (auto pump = VacuumPump(row, ambient)) parts.vacuum_pumps.push_back(*std::move(pump));
     if (row.family == "ejector" && StandsVacuum(row))
       parts.ejectors.push_back(Ejector(row, ambient));
+    if (row.family == "check_valve" && Has(row, kCheckValveNumbers))
+      parts.check_valves.push_back(CheckValve(row, ambient));
   }
   return parts;
 }
@@ -273,9 +302,7 @@ bool StandsVacuum(const catalog::Part& row) {
   // Of several stages the suction lies far below a straight line (Piab COAX: 78 in place of 205
   // L/min at −40 kPa).
   if (row.family == "ejector")
-    return Optional(row, "stages").value_or(1.0) == 1.0 &&
-           std::all_of(std::begin(kEjectorNumbers), std::end(kEjectorNumbers),
-                       [&](const char* field) { return row.numbers.contains(field); });
+    return Optional(row, "stages").value_or(1.0) == 1.0 && Has(row, kEjectorNumbers);
   if (row.family != "valve") return true;
   if (row.texts.contains("vacuum_rated")) return text_is("vacuum_rated", "yes");
   return !(Optional(row, "pressure_min_kpa_gauge").value_or(0.0) > 0.0);
@@ -299,6 +326,7 @@ model::Parts ToVacuumParts(const std::vector<catalog::Part>& rows, const model::
   stand(parts.valves);
   stand(parts.reservoirs);
   stand(parts.manifolds);
+  stand(parts.check_valves);
   for (model::Valve& valve : parts.valves) valve.pressure_min_pa = ambient.pressure_pa;
   return parts;
 }

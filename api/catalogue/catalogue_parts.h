@@ -15,7 +15,8 @@ namespace plenum::api {
 
 // `rows` have passed catalog::Validate (a required field that is missing throws std::out_of_range).
 // Optional numbers that are missing: price → not known; a regulator's flow limit → +∞; the water
-// volume of a CO2 bottle → 0 (not known).
+// volume of a CO2 bottle → 0 (not known). Check valves are among them whose mass, volume,
+// conductance, cracking pressure and pressure are known.
 model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient);
 
 // Whether a part is a manifold that joins any lines (optimizer/problem/joints.h): it has two

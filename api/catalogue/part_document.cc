@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <string>
 
 #include "api/catalogue/part_details.h"
+#include "api/catalogue/printed/printed_document.h"
 #include "api/json/json.h"
 #include "api/json/reader.h"
-#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
 #include "catalog/fields/fields.h"
 #include "catalog/fields/price.h"
 #include "catalog/store/store.h"
-#include "catalog/units/printed_flow.h"
 
 namespace plenum::api {
 namespace {
@@ -52,72 +50,6 @@ const catalog::Family* ReadFamily(Reader& reader) {
   return catalog::FindFamily(reader.Choice("family", names));
 }
 
-// What is printed in place of a conductance, as an object or a text; none: a number or nothing.
-std::optional<catalog::PrintedFlow> ReadPrinted(Reader& reader, const std::string& name) {
-  const Json& value = *reader.Raw(name);
-  catalog::PrintedFlow printed;
-  if (value.is_string()) {
-    const std::string& text = value.get_ref<const std::string&>();
-    if (!catalog::IsPrintedFlow(text)) return std::nullopt;
-    if (std::string error = catalog::ReadPrintedFlow(text, printed); !error.empty())
-      reader.Fail(name, std::move(error));
-    return printed;
-  }
-  if (!value.is_object()) return std::nullopt;
-  Reader object = reader.Object(name);
-  std::vector<std::string> names, given;
-  for (const catalog::FlowNotationSpec& spec : catalog::FlowNotations()) {
-    names.emplace_back(spec.field);
-    if (!object.Has(spec.field)) continue;
-    given.emplace_back(spec.field);
-    printed.notation = spec.notation;
-    printed.value = object.Number(spec.field, {spec.min, spec.max});
-  }
-  if (given.size() != 1)
-    object.FailHere("must hold one of " + OneOf(names) + ", not " + std::to_string(given.size()));
-  if (printed.notation == catalog::FlowNotation::kQn && object.Has("at"))
-    if (std::string error = catalog::ReadFlowPressures(object.Text("at"), printed); !error.empty())
-      object.Fail("at", std::move(error));
-  object.Finish();
-  return printed;
-}
-
-// The conductances that are given as they are printed: derived, with formula and source.
-void DerivePrinted(Reader& reader, const catalog::Family& family, catalog::Part& part) {
-  for (const catalog::NumberField& field : family.numbers) {
-    const std::string name(field.name);
-    if (!catalog::IsConductance(name) || !reader.Has(name)) continue;
-    const std::size_t errors_before = reader.errors().size();
-    const auto printed = ReadPrinted(reader, name);
-    if (!printed || reader.errors().size() > errors_before) continue;
-    const auto ratio = part.numbers.find(catalog::CriticalRatioOf(name));
-    const catalog::DerivedFlow derived = catalog::ConductanceOf(
-        *printed, ratio == part.numbers.end() || std::isnan(ratio->second.value)
-                      ? std::nullopt
-                      : std::optional(ratio->second.value));
-    const Range range{field.min, field.max};
-    if (!range.Contains(derived.conductance_dm3_per_s_bar))
-      reader.Fail(name, "comes to " + Decimal(derived.conductance_dm3_per_s_bar) + " (" +
-                            derived.formula + "); must be " + range.Text());
-    if (auto* recorder = RemarkRecorder::Current())
-      recorder->Understood("/" + name, {{"name", name},
-                                        {"given", *reader.Raw(name)},
-                                        {"value", derived.conductance_dm3_per_s_bar},
-                                        {"unit", "dm3/(s·bar)"},
-                                        {"formula", derived.formula}});
-    part.numbers[name] = {derived.conductance_dm3_per_s_bar, catalog::Provenance::kDerived,
-                          derived.formula};
-  }
-}
-
-// A value that ReadNumbers leaves to DerivePrinted.
-bool IsPrinted(Reader& reader, const std::string& name) {
-  const Json& value = *reader.Raw(name);
-  return catalog::IsConductance(name) &&
-         (value.is_object() ||
-          (value.is_string() && catalog::IsPrintedFlow(value.get_ref<const std::string&>())));
-}
-
 void ReadNumbers(Reader& reader, const catalog::Family& family, catalog::Part& part) {
   for (const catalog::NumberField& field : family.numbers) {
     const std::string name(field.name);
@@ -139,6 +71,7 @@ void ReadTexts(Reader& reader, const catalog::Family& family, catalog::Part& par
 
 void ReadCurve(Reader& reader, catalog::CurveKind kind, catalog::Part& part) {
   if (!reader.Has("curve")) return;
+  if (IsPrinted(reader, "curve")) return DerivePrintedCurve(reader, part);
   const auto [lowest, highest] = catalog::CurvePressuresKpaGauge(kind);
   catalog::Curve curve;
   curve.free_air_source = curve.current_source = "user";
@@ -181,8 +114,11 @@ void ReadOrigin(Reader& given, const NumberOrigin& origin) {
   const Json* source = given.Raw("source");
   if (source != nullptr && !source->is_string())
     given.Fail("source", "must be a text, not " + KindOf(*source));
-  if (origin.uncertainty != nullptr)
-    *origin.uncertainty = given.OptionalNumber("uncertainty", {kUncertaintyMin, 1});
+  if (origin.uncertainty != nullptr) {
+    const auto uncertainty = given.OptionalNumber("uncertainty", {kUncertaintyMin, 1});
+    // What was estimated here from what is printed keeps the error of its law.
+    if (uncertainty || !origin.is_printed) *origin.uncertainty = uncertainty;
+  }
   given.Finish();
   if (origin.source == nullptr) return;
   const bool has_source = source != nullptr && source->is_string();
@@ -207,7 +143,8 @@ void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part
     auto given = provenance->OptionalObject(field);
     if (!given) continue;
     NumberOrigin origin = OriginOf(part, field);
-    origin.is_printed = reader.Has(field) && IsPrinted(reader, field);
+    const std::string given_as = field == "free_air" || field == "current" ? "curve" : field;
+    origin.is_printed = reader.Has(given_as) && IsPrinted(reader, given_as);
     ReadOrigin(*given, origin);
     if (origin.source == nullptr) provenance->Fail(field, "the part has no value of " + field);
   }

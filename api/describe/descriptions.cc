@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/catalogue/part_details.h"
+#include "api/describe/part_forms.h"
 #include "api/design/read/design_reader.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/json/json.h"
@@ -14,10 +14,10 @@
 #include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
 #include "api/measure/model_document.h"
+#include "api/protocol/part_revision.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
 #include "catalog/fields/fields.h"
-#include "catalog/units/printed_flow.h"
 
 namespace plenum::api {
 namespace {
@@ -53,7 +53,7 @@ Json AllRequirements() {
     "duty": { "frequency_hz": 0.1, "actuations": 10, "simultaneous": true },
     "rise": { "to_fraction": 0.95 }, "fall": { "to_fraction": 0.05 },
     "supply": { "configurations": ["mains", "tank", "direct_pump"], "pumps": "shared",
-                "regulation": "shared",
+                "hold_on": false, "regulation": "shared",
                 "mains": { "pressure_kpa_gauge": 600, "flow_l_per_min_anr_max": 200 },
                 "source_pressure_kpa_gauge_max": 600, "tank_fill_kpa_gauge_max": 800,
                 "mass_kg_max": 10, "volume_l_max": 10,
@@ -92,7 +92,7 @@ Json EvacuatedRequirements() {
                 "vacuum": { "configurations": ["pump", "ejector", "mains"],
                             "vacuum_kpa_gauge_min": -80,
                             "mains": { "pressure_kpa_gauge": -85 } } },
-    "require": { "vacuum_pump": ["x"], "ejector": ["x"] } })");
+    "require": { "vacuum_pump": ["x"], "ejector": ["x"], "manifold": ["x"], "check_valve": ["x"] } })");
 }
 
 // The ways to write a line, a source and a schedule that the example does not use. It runs
@@ -102,7 +102,8 @@ std::vector<Json> AllSimulations() {
     "schema": "simulation/1", "gas": "air", "blocked": false,
     "actuators": [
       { "count": 1, "blocked": false, "close_at_operating_pressure": false, "effects": [],
-        "operating_pressure_kpa_gauge": 100,
+        "operating_pressure_kpa_gauge": 100, "low_pressure_kpa_gauge": 0,
+        "exhaust_pressure_kpa_gauge": 0, "close_at_low_pressure": false,
         "pressure_volume": [ {}, {} ], "cylinder": {}, "muscle": {}, "pouch": {}, "body": {},
         "valve": [ { "t_s": 0, "state": "hold" } ],
         "line": { "elements": [ { "part": "x", "length_m": 1 },
@@ -143,7 +144,15 @@ std::vector<Json> AllMeasurements() {
     "schema": "measurement/1",
     "rig": { "actuator": {}, "line": { "elements": [ { "exhaust": {} } ] },
              "supply": { "kind": "flow" } },
-    "runs": [ { "cycle": {} } ] })")};
+    "runs": [ { "cycle": {} } ] })"),
+          Document(R"({
+    "schema": "measurement/1",
+    "rig": { "arrangement": "side_by_side", "pressure_of": "a",
+             "chambers": [ { "name": "a", "part": "x", "from": "b", "pressure_volume": [ {}, {} ], "cylinder": {},
+                             "muscle": {}, "pouch": {}, "body": {}, "line": { "exhaust": {}, "tube": {} } },
+                           { "line": { "elements": [ { "exhaust": {} }, { "tube": {} } ] } } ],
+             "supply": { "kind": "regulated" } },
+    "runs": [ { "channels": {} } ] })")};
 }
 
 // The same without "required": of a rig each run may give a part.
@@ -152,98 +161,6 @@ Json InParts(Json schema) {
   for (auto& [name, inner] : schema.items())
     if (inner.is_structured() && name != "items") inner = InParts(std::move(inner));
   return schema;
-}
-
-Json Text(std::size_t most) { return {{"type", "string"}, {"maxLength", most}}; }
-
-Json ProvenanceForm(bool of_number) {
-  Json properties = {{"kind", {{"enum", catalog::ProvenanceNames()}}},
-                     {"source", {{"type", "string"}}}};
-  if (of_number)
-    properties["uncertainty"] = {{"type", {"number", "null"}},
-                                 {"minimum", 1e-6},
-                                 {"maximum", 1},
-                                 {"description", "relative, one standard deviation"}};
-  return {{"type", {"object", "null"}},
-          {"properties", std::move(properties)},
-          {"additionalProperties", false}};
-}
-
-Json CurveForm(catalog::CurveKind kind) {
-  const auto [lowest, highest] = catalog::CurvePressuresKpaGauge(kind);
-  const Json point = {
-      {"type", "object"},
-      {"properties",
-       {{"pressure_kpa_gauge", NumberOrQuantityForm("pressure_kpa_gauge", {lowest, highest})},
-        {"free_air_l_per_min", NumberOrQuantityForm("free_air_l_per_min", {0, 1e6})},
-        {"current_a", NumberOrQuantityForm("current_a", {0, 1e4})}}},
-      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
-      {"additionalProperties", false}};
-  return {{"type", "array"}, {"minItems", 1}, {"maxItems", kTablePointsMax}, {"items", point}};
-}
-
-// The ways to give a conductance as it is printed.
-Json PrintedForms() {
-  Json forms = Json::array();
-  for (const catalog::FlowNotationSpec& spec : catalog::FlowNotations()) {
-    Json properties = {
-        {std::string(spec.field), NumberOrQuantityForm(spec.field, {spec.min, spec.max})}};
-    if (spec.notation == catalog::FlowNotation::kQn)
-      properties["at"] = {{"type", "string"}, {"examples", Json::array({"6 to 5 bar"})}};
-    forms.push_back({{"type", "object"},
-                     {"properties", std::move(properties)},
-                     {"required", Json::array({spec.field})},
-                     {"additionalProperties", false}});
-  }
-  return forms;
-}
-
-Json FormOf(const catalog::NumberField& field) {
-  Json form = NumberOrQuantityForm(field.name, {field.min, field.max});
-  if (catalog::IsConductance(field.name))
-    for (const Json& printed : PrintedForms()) form["anyOf"].push_back(printed);
-  return form;
-}
-
-Json PartOf(const catalog::Family& family) {
-  Json properties = {{"family", {{"const", family.name}}},
-                     {"id", Text(100)},
-                     {"manufacturer", Text(kTextCharactersMax)},
-                     {"part_number", Text(kTextCharactersMax)},
-                     {"origin", {{"description", "set by the service"}}},
-                     {"notes", {{"type", {"string", "null"}}, {"maxLength", 4000}}}};
-  properties.update(DetailForms());
-  Json required = {"family", "manufacturer", "part_number"};
-  Json provenance = Json::object();
-  const auto add = [&](std::string_view name, Json form, bool is_required, bool is_number,
-                       std::string_view meaning) {
-    const std::string field(name);
-    form["description"] = meaning;
-    if (is_required) required.push_back(field);
-    if (!is_required) form = {{"anyOf", {form, {{"type", "null"}}}}};
-    properties[field] = std::move(form);
-    provenance[field] = ProvenanceForm(is_number);
-  };
-  for (const catalog::NumberField& field : family.numbers)
-    add(field.name, FormOf(field), field.required, true, field.meaning);
-  for (const catalog::TextField& field : family.texts) {
-    Json form = Text(kTextCharactersMax);
-    if (!field.allowed.empty()) form["enum"] = field.allowed;
-    add(field.name, std::move(form), field.required, false, field.meaning);
-  }
-  if (family.has_curve()) {
-    properties["curve"] = CurveForm(family.curve);
-    required.push_back("curve");
-    for (const char* name : {"free_air", "current"}) provenance[name] = ProvenanceForm(true);
-  }
-  properties["provenance"] = {{"type", {"object", "null"}},
-                              {"properties", std::move(provenance)},
-                              {"additionalProperties", false}};
-  return {{"title", family.name},
-          {"type", "object"},
-          {"properties", std::move(properties)},
-          {"required", std::move(required)},
-          {"additionalProperties", false}};
 }
 
 }  // namespace
@@ -276,6 +193,10 @@ Json DescribeMeasurement() {
   properties["save_part_anyway"] = {
       {"type", {"boolean", "null"}},
       {"description", "also where they contradict what stands there"}};
+  properties["save_part_specimen"] = {
+      {"type", {"string", "null"}},
+      {"maxLength", kSpecimenNameMax},
+      {"description", "the piece of the part's type that was measured"}};
   properties["time_limit_s"] = NumberOrQuantityForm("time_limit_s", {0.01, kDiagnosisTimeMaxS});
   return schema;
 }
@@ -307,7 +228,7 @@ Json DescribeGivenDesign() {
 
 Json DescribePart() {
   Json forms = Json::array();
-  for (const catalog::Family& family : catalog::Families()) forms.push_back(PartOf(family));
+  for (const catalog::Family& family : catalog::Families()) forms.push_back(PartForm(family));
   return {{"oneOf", std::move(forms)}};
 }
 

@@ -9,6 +9,7 @@
 #include "api/design/read/stock_volume.h"
 #include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/units.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/gait.h"
@@ -63,6 +64,7 @@ Json RenderSettings(const optimizer::Settings& settings, const optimizer::Proble
   if (settings.pump_stop_pa)
     rendered["pump_stop_kpa_gauge"] = Number(optimizer::KpaGauge(problem, *settings.pump_stop_pa));
   if (optimizer::Evacuated(problem)) rendered["vacuum_kpa_gauge"] = source;
+  if (HasVacuumRail(problem)) rendered["vacuum_kpa_gauge"] = Number(VacuumRailKpa(problem));
   if (!settings.group_pressure_pa.empty())
     rendered["group_pressure_kpa_gauge"] = Numbers(
         settings.group_pressure_pa, [&](double pa) { return optimizer::KpaGauge(problem, pa); });
@@ -224,7 +226,8 @@ Quality QualityOf(const optimizer::Design& design, const optimizer::Problem& pro
       quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
     } else if (const auto row = rows.find(choice.id); row != rows.end()) {
       AddEstimates(*row->second, choice.quantity, quality);
-      if (optimizer::Evacuated(problem)) AddAssumedOfVacuum(*row->second, quality);
+      if (optimizer::Evacuated(problem) || HasVacuumRail(problem))
+        AddAssumedOfVacuum(*row->second, quality);
       if (choice.family == optimizer::PumpFamily(design.configuration) && kept_by_pumps &&
           !row->second->texts.contains("check_valve"))
         quality.estimated.insert(row->second->family + ".check_valve");

@@ -8,6 +8,7 @@
 #include "api/design/proof_record.h"
 #include "api/design/read/selection.h"
 #include "api/design/read/supply/own_pumps.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/json.h"
 #include "api/json/version.h"
 #include "optimizer/evaluate/line.h"
@@ -142,6 +143,8 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
         ++counts["orderable"][part.family];
       else if (optimizer::Evacuated(problem) && !StandsVacuum(part))
         ++counts["vacuum"][part.family];
+      else if (!SuitsVacuumRail(problem, part))
+        ++counts[StandsVacuum(part) ? "holding" : "vacuum"][part.family];
       else if (!HasItsPressure(problem, part))
         ++counts["supply_pressure"][part.family];
     }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
@@ -24,6 +25,7 @@ bool NamesConfigurations(const Json& request) {
 }
 
 bool MayBeAsked(const Problem& problem, Configuration configuration) {
+  if (HasVacuumRail(problem) && !GoesWithVacuumRail(configuration)) return false;
   if (configuration == Configuration::kMains) return problem.mains.pressure_pa > 0.0;
   return !optimizer::IsDirect(configuration) || !optimizer::StrokesMeet(problem);
 }
@@ -34,6 +36,7 @@ Problem With(const Problem& problem, Configuration configuration,
   Problem other = problem;
   other.configurations = {configuration};
   other.pump_feed = optimizer::PumpFeed::kShared;
+  optimizer::SetPumpsHoldOn(false, other);
   for (optimizer::ActuatorGroup& group : other.groups) group.fed_past_valve = false;
   other.list = optimizer::ListOf::kCombinations;
   other.count = 1;

@@ -36,7 +36,7 @@ constexpr Slip kSlips[] = {
     {"/sonic_conductance_dm3_per_s_bar", 30, 1e4, "L/(min·bar)"},
 };
 
-std::string Question(const Slip& slip, double value) {
+std::string SlipQuestion(const Slip& slip, double value) {
   const std::string unit(catalog::UnitOf(slip.place));
   const std::string other = Decimal(value) + " " + std::string(slip.unit);
   const auto meant = catalog::ParseQuantity(other, slip.place).value.value_or(value);
@@ -49,7 +49,7 @@ std::string Question(const Slip& slip, double value) {
 std::string LooksLikeAnotherUnit(std::string_view pointer, double value) {
   for (const Slip& slip : kSlips)
     if (pointer.ends_with(slip.place) && value >= slip.low && value < slip.high)
-      return Question(slip, value);
+      return SlipQuestion(slip, value);
   return "";
 }
 

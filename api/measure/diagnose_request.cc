@@ -1,5 +1,9 @@
 #include "api/measure/diagnose_request.h"
 
+#include <utility>
+#include <vector>
+
+#include "api/measure/fitted/bottles.h"
 #include "api/measure/inputs_document.h"
 #include "api/measure/revision_of_diagnosis.h"
 #include "calibration/diagnose.h"
@@ -18,9 +22,7 @@ void AddRemarks(Remarks remarks, Json& answer) {
   remarks.AddTo(answer);
 }
 
-}  // namespace
-
-DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
+DiagnosisAnswer DiagnoseRuns(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
   calibration::DiagnoseOptions options;
   options.cancelled = progress.cancelled;
   options.progress = progress.progress;
@@ -34,10 +36,33 @@ DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisPro
   answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
   AddRemarks(request.remarks, answer.answer);
   answer.answer["measurement"] = InputsOf(request.measurement);
-  if (!request.model && diagnosis.tied.empty() &&
+  // A saved model is one of a single actuator.
+  if (!request.model && diagnosis.tied.empty() && !request.dataset.several &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);
   answer.answer["revision"] = answer.revision ? RenderModel(*answer.revision) : Json(nullptr);
+  return answer;
+}
+
+// The request of the runs of one bottle.
+DiagnosisRequest OfBottle(DiagnosisRequest request, const BottleRuns& bottle) {
+  request.dataset = OnlyRuns(std::move(request.dataset), bottle.runs);
+  request.measurement = OnlyRuns(std::move(request.measurement), bottle.runs);
+  return request;
+}
+
+}  // namespace
+
+DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
+  const std::vector<BottleRuns> bottles = RunsByBottle(request.dataset);
+  if (bottles.size() < 2u || request.model) return DiagnoseRuns(request, progress);
+  DiagnosisAnswer answer = DiagnoseRuns(OfBottle(request, bottles.front()), progress);
+  Json& checks = answer.answer["bottles"] = Json::array();
+  for (std::size_t k = 1; k < bottles.size(); ++k) {
+    const Json other = DiagnoseRuns(OfBottle(request, bottles[k]), progress).answer;
+    checks.push_back(CompareBottles(answer.answer, bottles.front(), other, bottles[k],
+                                    request.dataset, answer.answer["measured_refused"]));
+  }
   return answer;
 }
 

@@ -11,10 +11,9 @@
 #include "api/measure/diagnosis_document.h"
 #include "api/measure/measurement.h"
 #include "api/measure/model_document.h"
+#include "api/measure/time_limit.h"
 
 namespace plenum::api {
-
-inline constexpr double kDiagnosisTimeS = 60.0, kDiagnosisTimeMaxS = 3600.0;
 
 struct DiagnosisRequest {
   calibration::Dataset dataset;
@@ -34,6 +33,8 @@ struct DiagnosisAnswer {
   Json answer;                         // diagnosis/1
   std::optional<SavedModel> revision;  // to be saved; none of a tie or of what is undecided
 };
+// Of runs with several bottles that measure a part (fitted/bottles.h) the answer is that of the
+// bottle with the most runs, with "bottles" for what the others say.
 DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress);
 
 // A file by name and the hash of its text.

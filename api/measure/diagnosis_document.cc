@@ -10,6 +10,7 @@
 #include "api/measure/fitted/fitted_numbers.h"
 #include "api/measure/fitted/specimens_document.h"
 #include "api/measure/measured_document.h"
+#include "api/measure/rig/chamber_words.h"
 #include "api/measure/stated_document.h"
 #include "api/measure/words/effect_words.h"
 #include "api/simulate/effects.h"
@@ -78,7 +79,7 @@ Json RenderError(const calibration::ErrorReport& error) {
 }
 
 // The parameters of the effect, where it has no estimates (a learned term) with no interval.
-Json RenderEffect(const calibration::FittedEffect& fitted, const Scale& scale) {
+Json RenderEffect(const calibration::FittedEffect& fitted, const Dataset& dataset) {
   const model::EffectSpec& spec = *fitted.effect.spec;
   Json parameters = Json::object();
   if (!spec.law.empty()) parameters["law"] = spec.law;
@@ -86,9 +87,11 @@ Json RenderEffect(const calibration::FittedEffect& fitted, const Scale& scale) {
     const ContractParameter parameter = InContract(spec.parameters[i]);
     parameters[parameter.name] = RenderEstimate(fitted.parameters[i], parameter.factor);
   }
-  return {{"id", spec.id},
-          {"parameters", std::move(parameters)},
-          {"words", EffectInWords(fitted.effect, scale)}};
+  Json effect = {{"id", spec.id},
+                 {"parameters", std::move(parameters)},
+                 {"words", EffectInWords(fitted.effect, ScaleOf(dataset, fitted.effect))}};
+  PutChamber(spec, dataset, effect);
+  return effect;
 }
 
 // "leak:porous" as id and law; "number:source_pressure" is an id.
@@ -160,7 +163,8 @@ Json RenderExperiment(const calibration::Experiment& experiment, const Dataset& 
   const Run& run = experiment.run;
   Json document = {{"id", run.id}, {"blocked", run.blocked}};
   if (!dataset.specimens.empty())
-    document["specimen"] = SpecimenName(dataset.specimens[run.specimen]);
+    document[dataset.several ? "chamber" : "specimen"] =
+        SpecimenName(dataset.specimens[run.specimen]);
   if (run.source_pressure_pa > 0.0)
     document["source_pressure_kpa_gauge"] =
         Number(KpaGaugeFromPa(run.source_pressure_pa, run.ambient));
@@ -196,21 +200,20 @@ Json RenderDiscrepancy(const calibration::Discrepancy& discrepancy, const Datase
   for (const auto& place : discrepancy.places)
     places.push_back(
         {{"axis", place.axis}, {"where", place.where}, {"share", Number(place.share)}});
-  const Scale scale = ScaleOf(dataset);
   Json effects = Json::array();
   for (std::size_t i = 0; i + 1 < discrepancy.beside.effects.size(); ++i)
-    effects.push_back(RenderEffect(discrepancy.beside.effects[i], scale));
-  return {
-      {"equation", Name(discrepancy.equation)},
-      {"features", discrepancy.features},
-      {"learned", discrepancy.learned ? RenderEffect(*discrepancy.learned, scale) : Json(nullptr)},
-      {"effects", std::move(effects)},
-      {"fitted", RenderFitted(discrepancy.beside.fitted, dataset)},
-      {"rms_before_kpa", Kpa(discrepancy.rms_before_pa)},
-      {"rms_after_kpa", Kpa(discrepancy.rms_after_pa)},
-      {"holdout_before_kpa", Kpa(discrepancy.holdout_before_pa)},
-      {"holdout_after_kpa", Kpa(discrepancy.holdout_after_pa)},
-      {"places", std::move(places)}};
+    effects.push_back(RenderEffect(discrepancy.beside.effects[i], dataset));
+  return {{"equation", Name(discrepancy.equation)},
+          {"features", discrepancy.features},
+          {"learned",
+           discrepancy.learned ? RenderEffect(*discrepancy.learned, dataset) : Json(nullptr)},
+          {"effects", std::move(effects)},
+          {"fitted", RenderFitted(discrepancy.beside.fitted, dataset)},
+          {"rms_before_kpa", Kpa(discrepancy.rms_before_pa)},
+          {"rms_after_kpa", Kpa(discrepancy.rms_after_pa)},
+          {"holdout_before_kpa", Kpa(discrepancy.holdout_before_pa)},
+          {"holdout_after_kpa", Kpa(discrepancy.holdout_after_pa)},
+          {"places", std::move(places)}};
 }
 
 // Pressures to 0.1 Pa and times to 1 µs: below what any sensor shows.
@@ -267,9 +270,8 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
                    {"before", RenderError(diagnosis.before)},
                    {"after", RenderError(diagnosis.after)},
                    {"learned", diagnosis.learned ? RenderError(*diagnosis.learned) : Json()}});
-  document["effects"] = List(diagnosis.effects, [scale = ScaleOf(dataset)](const auto& effect) {
-    return RenderEffect(effect, scale);
-  });
+  document["effects"] =
+      List(diagnosis.effects, [&](const auto& effect) { return RenderEffect(effect, dataset); });
   document["numbers"] =
       List(diagnosis.numbers, [&](const auto& wrong) { return RenderWrong(wrong, dataset); });
   document["stability"] = List(diagnosis.stability, RenderStability);
@@ -290,6 +292,7 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
       diagnosis.discrepancy ? RenderDiscrepancy(*diagnosis.discrepancy, dataset) : Json(nullptr);
   document["unexplained_fraction"] = Number(diagnosis.unexplained_fraction);
   document["warnings"] = diagnosis.warnings;
+  NameChambers(dataset, document);
   document["series"] =
       List(diagnosis.series, [&](const auto& series) { return RenderSeries(series, dataset); });
   document["provenance"] = RenderProvenance(provenance);

@@ -27,7 +27,14 @@ void ForLists(Json& run, const Change& change) {
   for (const char* name : {"t_s", "pressure_kpa_gauge"})
     if (run.contains(name)) change(run[name], std::string("/") + name);
   if (!run.contains("channels") || !run["channels"].is_object()) return;
-  for (auto& [name, list] : run["channels"].items()) change(list, "/channels/" + name);
+  for (auto& [name, list] : run["channels"].items()) {
+    if (name != "chambers" || !list.is_object()) change(list, "/channels/" + name);
+    if (name == "chambers" && list.is_object())
+      for (auto& [chamber, readings] : list.items()) {
+        Json::json_pointer place("/channels/chambers");
+        change(readings, (place /= chamber).to_string());
+      }
+  }
 }
 
 bool IsHash(const Json& list) {

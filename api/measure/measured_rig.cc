@@ -6,111 +6,29 @@
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
+#include "api/measure/rig/several_chambers.h"
 #include "api/simulate/group_chamber.h"
 #include "api/simulate/rig.h"
 
 namespace plenum::api {
 namespace {
 
-using calibration::LinePiece;
 using calibration::MeasuredNumber;
 using calibration::MeasuredPlace;
 using calibration::Supply;
 
-constexpr std::size_t kElementsMax = 16;
 constexpr double kFlowPressurePa = 1e8;      // up to which a flow controller lets its flow in
 constexpr double kSensorLowestKpa = -200.0;  // gauge; sensors of absolute pressure begin below 0
+constexpr double kNothingPa = 1e-3;          // absolute: a vacuum that simulations can take
 constexpr double kSensorErrorMaxKpa = 1e4;
 constexpr double kCoarsest = 0.5;           // of the range
 constexpr double kSmallReservoirMl = 10.0;  // where a compressor feeds the line directly
 
+using Of = MeasuredPlace::Of;
+using MeasuredKind = MeasuredNumber::Kind;
+
 constexpr const char* kRemarks[] = {"note",    "notes",  "comment", "description", "date",
                                     "license", "origin", "url",     "author"};
-
-LinePiece ReadPairs(Reader& reader) {
-  LinePiece piece;
-  piece.fill = piece.exhaust = ReadPair(reader);
-  if (auto exhaust = reader.OptionalObject("exhaust")) {
-    piece.exhaust = ReadPair(*exhaust);
-    exhaust->Finish();
-  }
-  return piece;
-}
-
-LinePiece ReadTube(Reader tube) {
-  LinePiece piece;
-  piece.tube = LinePiece::Tube();
-  piece.tube->inner_diameter_m = MFromMm(tube.Number("inner_diameter_mm", {0.3, 30}));
-  piece.tube->length_m = tube.Number("length_m", TubeLengthRange());
-  tube.Finish();
-  return piece;
-}
-
-using Of = MeasuredPlace::Of;
-using Kind = MeasuredNumber::Kind;
-
-// "part" and "measure" of an object of the rig: the part's id and the names to be measured.
-struct Measure {
-  std::string part;
-  std::vector<std::string> names;
-};
-Measure ReadMeasure(Reader& reader, const std::vector<std::string>& allowed) {
-  Measure measure;
-  measure.part = reader.Text("part", "");
-  if (!reader.Has("measure")) return measure;
-  measure.names = reader.Texts("measure", 1, allowed.size());
-  if (measure.part.empty()) reader.Fail("part", "is required with measure: the id of the part");
-  for (std::size_t i = 0; i < measure.names.size(); ++i)
-    if (std::find(allowed.begin(), allowed.end(), measure.names[i]) == allowed.end())
-      reader.FailAt("measure/" + std::to_string(i),
-                    "must be " + OneOf(allowed) + ", not " + Quoted(measure.names[i]));
-  return measure;
-}
-
-struct PairNumber {
-  const char* name;
-  Kind kind;
-  std::vector<Of> places;
-};
-
-// Of an element with one pair for both directions, and of one with a pair for each.
-const std::vector<PairNumber>& PairNumbers(bool directed) {
-  static const std::vector<PairNumber> kBoth = {
-      {"sonic_conductance", Kind::kConductance, {Of::kFillConductance, Of::kExhaustConductance}},
-      {"critical_ratio", Kind::kRatio, {Of::kFillRatio, Of::kExhaustRatio}}};
-  static const std::vector<PairNumber> kDirected = {
-      {"sonic_conductance_fill", Kind::kConductance, {Of::kFillConductance}},
-      {"critical_ratio_fill", Kind::kRatio, {Of::kFillRatio}},
-      {"sonic_conductance_exhaust", Kind::kConductance, {Of::kExhaustConductance}},
-      {"critical_ratio_exhaust", Kind::kRatio, {Of::kExhaustRatio}}};
-  return directed ? kDirected : kBoth;
-}
-
-double DeclaredAt(const LinePiece& piece, Of of) {
-  const bool fill = of == Of::kFillConductance || of == Of::kFillRatio;
-  const model::FlowElement& pair = fill ? piece.fill : piece.exhaust;
-  return of == Of::kFillConductance || of == Of::kExhaustConductance
-             ? pair.sonic_conductance_m3_per_s_pa
-             : pair.critical_ratio;
-}
-
-void ReadMeasuredPair(Reader& reader, const LinePiece& piece, std::size_t at,
-                      std::vector<MeasuredInRig>& measured) {
-  const std::vector<PairNumber>& numbers = PairNumbers(reader.Has("exhaust"));
-  std::vector<std::string> allowed;
-  allowed.reserve(numbers.size());
-  for (const PairNumber& number : numbers) allowed.emplace_back(number.name);
-  const Measure measure = ReadMeasure(reader, allowed);
-  for (const PairNumber& number : numbers) {
-    if (std::count(measure.names.begin(), measure.names.end(), number.name) == 0) continue;
-    MeasuredInRig& in_rig = measured.emplace_back();
-    in_rig.number = {.part = measure.part,
-                     .name = number.name,
-                     .kind = number.kind,
-                     .declared = DeclaredAt(piece, number.places.front())};
-    for (const Of of : number.places) in_rig.places.push_back({.of = of, .piece = at});
-  }
-}
 
 // What the pump's delivery falls by from each point of its table to the next.
 void ReadMeasuredDelivery(Reader& supply, MeasuredRig& rig) {
@@ -122,7 +40,7 @@ void ReadMeasuredDelivery(Reader& supply, MeasuredRig& rig) {
     const double next = i + 1 < curve.y().size() ? curve.y()[i + 1] : 0.0;
     rig.measured.push_back({{.part = measure.part,
                              .name = "free_air",
-                             .kind = Kind::kDelivery,
+                             .kind = MeasuredKind::kDelivery,
                              .declared = curve.y()[i] - next,
                              .pressure_pa = curve.x()[i]},
                             {}});
@@ -134,32 +52,12 @@ void ReadMeasuredVolume(Reader& actuator, MeasuredRig& rig) {
   if (measure.names.empty()) return;
   if (rig.chamber.expansion_ratio != 1.0 || !rig.chamber.volume_curve.empty())
     actuator.Fail("expansion_ratio", "must be 1, without another volume, to be measured");
-  rig.measured.push_back({{.part = measure.part,
-                           .name = "internal_volume",
-                           .kind = Kind::kVolume,
-                           .declared = rig.chamber.rest_volume_m3},
-                          {{.of = Of::kVolume}}});
-}
-
-std::vector<LinePiece> ReadPieces(Reader line, std::vector<MeasuredInRig>& measured) {
-  std::vector<LinePiece> pieces;
-  if (line.Has("elements")) {
-    for (const Element& element : line.List("elements", 1, kElementsMax)) {
-      Reader reader(element, line.errors());
-      if (reader.Has("tube")) {
-        pieces.push_back(ReadTube(reader.Object("tube")));
-      } else {
-        pieces.push_back(ReadPairs(reader));
-        ReadMeasuredPair(reader, pieces.back(), pieces.size() - 1, measured);
-      }
-      reader.Finish();
-    }
-  } else {
-    pieces.push_back(ReadPairs(line));
-    if (line.Has("tube")) pieces.push_back(ReadTube(line.Object("tube")));
-  }
-  line.Finish();
-  return pieces;
+  MeasuredInRig& volume = rig.measured.emplace_back();
+  volume.number.part = measure.part;
+  volume.number.name = "internal_volume";
+  volume.number.kind = MeasuredKind::kVolume;
+  volume.number.declared = rig.chamber.rest_volume_m3;
+  volume.places.push_back({.of = Of::kVolume});
 }
 
 void ReadSupply(Reader& rig, MeasuredRig& part) {
@@ -184,8 +82,8 @@ void ReadSupply(Reader& rig, MeasuredRig& part) {
   }
   if (const auto kpa = supply->OptionalNumber(
           "source_pressure_kpa_gauge",
-          kind == "regulated" ? PressuresAbove0(part.ambient) : Range{0, kRigGaugeMaxKpa}))
-    part.source_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
+          kind == "regulated" ? PressuresFrom0(part.ambient) : Range{0, kRigGaugeMaxKpa}))
+    part.source_pressure_pa = PaFromKpaGaugeOf(*kpa, part.ambient);
   if (!kind.empty()) supply->Finish();
 }
 
@@ -218,18 +116,25 @@ MeasuredRig ReadRig(const Json& document, const std::string& pointer, Errors& er
   MeasuredRig part;
   AllowRemarks(reader);
   part.ambient = ReadAmbient(reader);
-  Reader actuator = reader.Object("actuator");
-  AllowRemarks(actuator);
-  part.chamber = ReadChamber(actuator, part.ambient);
-  ReadMeasuredVolume(actuator, part);
-  actuator.Finish();
+  if (reader.Has("chambers")) {
+    part.several = ReadSeveral(reader, part.ambient);
+    if (!part.several.empty()) part.chamber = part.several.all[part.several.gauge].chamber;
+  } else {
+    Reader actuator = reader.Object("actuator");
+    AllowRemarks(actuator);
+    part.chamber = model::Unmirrored(ReadChamber(actuator, part.ambient, Vacuum::kAllowed));
+    ReadMeasuredVolume(actuator, part);
+    actuator.Finish();
+  }
   if (reader.Has("line")) part.line = ReadPieces(reader.Object("line"), part.measured);
   part.gas = ReadGas(reader);
   ReadSupply(reader, part);
   if (const auto kpa =
-          reader.OptionalNumber("exhaust_pressure_kpa_gauge", PressuresAbove0(part.ambient)))
-    part.exhaust_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
+          reader.OptionalNumber("exhaust_pressure_kpa_gauge", PressuresFrom0(part.ambient)))
+    part.exhaust_pressure_pa = PaFromKpaGaugeOf(*kpa, part.ambient);
   part.sensor = ReadSensor(reader, part.ambient);
+  if (!part.several.empty() && !part.measured.empty())
+    reader.Fail("chambers", "must not stand in a rig that measures numbers of parts");
   reader.Finish();
   return part;
 }
@@ -252,8 +157,12 @@ void AddOnce(Error error, Errors& errors) {
 
 }  // namespace
 
-Range PressuresAbove0(const model::Ambient& ambient) {
-  return Above(-ambient.pressure_pa / kPaPerKpa, kRigGaugeMaxKpa);
+Range PressuresFrom0(const model::Ambient& ambient) {
+  return {-ambient.pressure_pa / kPaPerKpa, kRigGaugeMaxKpa};
+}
+
+double PaFromKpaGaugeOf(double kpa, const model::Ambient& ambient) {
+  return std::max(kNothingPa, PaFromKpaGauge(kpa, ambient));
 }
 
 void AllowRemarks(Reader& reader) {

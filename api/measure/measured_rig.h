@@ -7,21 +7,16 @@
 #include <vector>
 
 #include "api/json/reader.h"
+#include "api/measure/rig/measured_line.h"
 #include "calibration/values/dataset.h"
 
 namespace plenum::api {
 
-// A number of a part that the rig measures, and where it stands there: places of a line or volume,
-// or points of the compressor's curve.
-struct MeasuredInRig {
-  calibration::MeasuredNumber number;
-  std::vector<calibration::MeasuredPlace> places;
-};
-
 // What a rig declares, before the run adds its own. Pressures absolute.
 struct MeasuredRig {
   model::Ambient ambient;
-  model::Chamber chamber;
+  model::Chamber chamber;  // of several the one that the run's pressure is of
+  calibration::Several several;
   std::vector<calibration::LinePiece> line;
   model::Gas gas = model::Gas::kAir;
   calibration::Supply supply = calibration::Supply::kNone;
@@ -38,8 +33,9 @@ struct MeasuredRig {
 MeasuredRig ReadRigOfRun(const Json& shared, const Json* own, const std::string& own_pointer,
                          Errors& errors);
 
-// Gauge pressures down to an absolute 0, which is not one of them.
-Range PressuresAbove0(const model::Ambient& ambient);
+// Gauge pressures down to an absolute 0, and what they are taken for: above it.
+Range PressuresFrom0(const model::Ambient& ambient);
+double PaFromKpaGaugeOf(double kpa, const model::Ambient& ambient);
 
 // Lets pass what people write into such files for themselves: note, date, license, ...
 void AllowRemarks(Reader& reader);

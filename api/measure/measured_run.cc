@@ -13,6 +13,7 @@
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/measure/measured_rig.h"
+#include "api/measure/rig/several_chambers.h"
 #include "api/measure/valve/measured_valve.h"
 #include "calibration/values/crossing.h"
 
@@ -102,19 +103,23 @@ double HighestKpa(const Run& run) {
   return declared_pa > kGaugeMaxKpa * kPaPerKpa ? kRigGaugeMaxKpa : kGaugeMaxKpa;
 }
 
-void ReadChannels(Reader& owner, Run& run) {
+// Gives the readings of other chambers.
+ChamberReadings ReadChannels(Reader& owner, Run& run) {
   auto channels = owner.OptionalObject("channels");
-  if (!channels) return;
+  if (!channels) return ChamberReadings(run.several.all.size());
   const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
   const auto gauge = [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); };
-  const auto read = [&](const char* name, Range range, auto&& convert,
-                        std::vector<double>& channel) {
-    if (!channels->Has(name)) return;
-    channel = InSi(ReadSeries(*channels, name, range, true, 0), convert);
-    CheckLength(*channels, name, channel.size(), run.t_s.size());
+  const auto read_of = [&](Reader& of, const std::string& name, Range range, auto&& convert) {
+    std::vector<double> channel = InSi(ReadSeries(of, name, range, true, 0), convert);
+    CheckLength(of, name, channel.size(), run.t_s.size());
     const bool silent =
         std::all_of(channel.begin(), channel.end(), [](double value) { return std::isnan(value); });
     if (silent) channel.clear();
+    return channel;
+  };
+  const auto read = [&](const char* name, Range range, auto&& convert,
+                        std::vector<double>& channel) {
+    if (channels->Has(name)) channel = read_of(*channels, name, range, convert);
   };
   const Range pressure = Above(lowest_kpa, HighestKpa(run));
   read("source_pressure_kpa_gauge", pressure, gauge, run.channels.source_pressure_pa);
@@ -124,7 +129,12 @@ void ReadChannels(Reader& owner, Run& run) {
   read("flow_l_per_min_anr", {-1e6, 1e6}, M3PerSFromLPerMin, run.channels.flow_m3_per_s);
   read("valve_opening", {0, 1}, std::identity(), run.channels.valve_opening);
   read("source_setpoint_kpa_gauge", {0, HighestKpa(run)}, gauge, run.channels.source_setpoint_pa);
+  const Range readings = {1.5 * lowest_kpa, HighestKpa(run)};
+  ChamberReadings chambers = ReadChamberChannels(
+      *channels, run.several,
+      [&](Reader& of, const std::string& name) { return read_of(of, name, readings, gauge); });
   channels->Finish();
+  return chambers;
 }
 
 double Largest(const std::vector<double>& series) {
@@ -178,6 +188,30 @@ bool Opens(const Run& run, model::ValveState state) {
                      [&](const model::ValveCommand& command) { return command.state == state; });
 }
 
+// An evacuated actuator is evacuated by a source below ambient, and something of its volume is left
+// at the deepest pressure.
+void CheckEvacuated(Reader& owner, const Run& run, const model::Chamber& chamber, bool inflates,
+                    bool has_source_pressure) {
+  if (!model::Shrinks(chamber)) return;
+  const std::string below = " where the actuator's operating_pressure_kpa_gauge is below 0";
+  if (run.volume_imposed) owner.Fail("volume", "must be free" + below);
+  if (inflates && run.supply != Supply::kRegulated)
+    owner.Fail("valve", "inflates, which needs supply.kind regulated" + below);
+  else if (inflates && has_source_pressure && !calibration::Evacuates(run))
+    owner.Fail("source_pressure_kpa_gauge",
+               "must be below 0" + below + ": to inflate is to evacuate");
+  const double least = calibration::ExpansionRange(run, chamber).first;
+  if (run.blocked || !(chamber.expansion_ratio < least)) return;
+  const double deepest_pa =
+      std::min(calibration::LowestPressure(run), chamber.operating_pressure_pa);
+  owner.Fail("rig", "nothing would be left of the actuator's volume at " +
+                        Decimal(Rounded(KpaGaugeFromPa(deepest_pa, run.ambient))) +
+                        " kPa gauge, to which this run goes: expansion_ratio must be at least " +
+                        Decimal(Rounded(least)) +
+                        ", or operating_pressure_kpa_gauge the deepest pressure of all runs with "
+                        "the ratio there");
+}
+
 // What the run does must be possible with what is declared.
 void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
   const bool inflates = Opens(run, model::ValveState::kInflate);
@@ -189,6 +223,9 @@ void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
     owner.Fail("source_pressure_kpa_gauge",
                "is required with a regulated supply, a number, or its setpoint as the channel "
                "source_setpoint_kpa_gauge");
+  if (run.several.empty()) CheckEvacuated(owner, run, run.chamber, inflates, has_source_pressure);
+  for (std::size_t i = run.several.first(); i < run.several.all.size(); ++i)
+    CheckEvacuated(owner, run, run.several.all[i].chamber, inflates, has_source_pressure);
   const calibration::Channels& channels = run.channels;
   if (calibration::Evacuates(run) &&
       !(channels.source_pressure_pa.empty() && channels.flow_m3_per_s.empty() &&
@@ -255,8 +292,8 @@ double SqueezeOf(const Run& run) {
   return Largest(run.channels.volume_m3) / least;
 }
 
-// Readings that can tell something.
-void CheckReadings(Reader& owner, const Run& run) {
+// Readings that can tell something; `field` is where they stand.
+void CheckReadings(Reader& owner, const std::string& field, const Run& run) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   std::size_t count = 0;
   for (const double pa : run.pressure_pa) {
@@ -266,16 +303,19 @@ void CheckReadings(Reader& owner, const Run& run) {
   }
   if (run.pressure_pa.empty()) return;  // reported
   if (count < kReadingsMin) {
-    owner.Fail("pressure_kpa_gauge", "must hold at least " + std::to_string(kReadingsMin) +
-                                         " readings, not " + std::to_string(count));
+    owner.FailAt(field, "must hold at least " + std::to_string(kReadingsMin) + " readings, not " +
+                            std::to_string(count));
     return;
   }
   const double high_kpa = KpaGaugeFromPa(high, run.ambient);
   if (low == high)
-    owner.Fail("pressure_kpa_gauge", "must change; all " + std::to_string(count) +
-                                         " readings are " + Decimal(Rounded(high_kpa)));
-  double cause_pa = std::max({run.source_pressure_pa, run.chamber.operating_pressure_pa,
-                              run.initial_pressure_pa.value_or(0.0)});
+    owner.FailAt(field, "must change; all " + std::to_string(count) + " readings are " +
+                            Decimal(Rounded(high_kpa)));
+  // What evacuates can be the cause of as much the other way.
+  const double ambient_pa = run.ambient.pressure_pa;
+  double cause_pa = ambient_pa + std::max({std::abs(run.source_pressure_pa - ambient_pa),
+                                           model::Span(run.chamber),
+                                           run.initial_pressure_pa.value_or(0.0) - ambient_pa});
   for (const double pa : run.channels.source_pressure_pa)
     if (!std::isnan(pa)) cause_pa = std::max(cause_pa, pa);
   if (run.supply == Supply::kCompressor)
@@ -283,15 +323,15 @@ void CheckReadings(Reader& owner, const Run& run) {
   if (run.volume_imposed && !run.channels.volume_m3.empty()) cause_pa *= SqueezeOf(run);
   const double cause_kpa = KpaGaugeFromPa(cause_pa, run.ambient);
   if (run.initial_pressure_pa && high_kpa > kAbsurd * cause_kpa)
-    owner.Fail("pressure_kpa_gauge", "reaches " + Decimal(Rounded(high_kpa)) +
-                                         " kPa, but nothing in the run is above " +
-                                         Decimal(Rounded(cause_kpa)) + " kPa; are the units kPa?");
+    owner.FailAt(field, "reaches " + Decimal(Rounded(high_kpa)) +
+                            " kPa, but nothing in the run is above " + Decimal(Rounded(cause_kpa)) +
+                            " kPa; are the units kPa?");
 }
 
 }  // namespace
 
 Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
-            calibration::Dataset& dataset, Errors& errors) {
+            calibration::Dataset& dataset, std::vector<Run>& of_gauges, Errors& errors) {
   Reader reader(element, errors);
   AllowRemarks(reader);
   Run run;
@@ -303,6 +343,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
                                        reader.Pointer("rig"), errors);
   run.ambient = rig.ambient;
   run.chamber = rig.chamber;
+  run.several = rig.several;
   run.line = rig.line;
   run.gas = rig.gas;
   run.supply = rig.supply;
@@ -311,15 +352,15 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.sensor = rig.sensor;
   TakeMeasured(rig.measured, dataset.measured, run);
   ReadVolume(reader, run);
-  const Range pressures = PressuresAbove0(run.ambient);
+  const Range pressures = PressuresFrom0(run.ambient);
   const auto source_kpa = reader.OptionalNumber(
       "source_pressure_kpa_gauge",
       run.supply == Supply::kRegulated ? pressures : Range{0, kRigGaugeMaxKpa});
   const bool has_source = source_kpa || rig.source_pressure_pa;
-  run.source_pressure_pa = source_kpa ? PaFromKpaGauge(*source_kpa, run.ambient)
+  run.source_pressure_pa = source_kpa ? PaFromKpaGaugeOf(*source_kpa, run.ambient)
                                       : rig.source_pressure_pa.value_or(run.ambient.pressure_pa);
   const auto exhaust_kpa = reader.OptionalNumber("exhaust_pressure_kpa_gauge", pressures);
-  run.exhaust_pressure_pa = exhaust_kpa ? PaFromKpaGauge(*exhaust_kpa, run.ambient)
+  run.exhaust_pressure_pa = exhaust_kpa ? PaFromKpaGaugeOf(*exhaust_kpa, run.ambient)
                                         : rig.exhaust_pressure_pa.value_or(0.0);
   ReadInitial(reader, run);
   ReadMeasuredValve(reader, run);
@@ -331,10 +372,15 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
                          [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
   CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
   FindInstants(reader, run);
-  ReadChannels(reader, run);
+  const ChamberReadings chambers = ReadChannels(reader, run);
   CheckDriven(reader, run);
   CheckAgreement(reader, run, has_source || calibration::FollowsSetpoint(run));
-  CheckReadings(reader, run);
+  CheckReadings(reader, "pressure_kpa_gauge", run);
+  CheckSeveral(reader, run);
+  for (Run& other : RunsOfGauges(run, chambers)) {
+    CheckReadings(reader, "channels/chambers/" + run.several.all[other.several.gauge].name, other);
+    of_gauges.push_back(std::move(other));
+  }
   reader.Finish();
   return run;
 }

@@ -12,6 +12,7 @@
 #include "api/json/words.h"
 #include "api/measure/measured_rig.h"
 #include "api/measure/measured_run.h"
+#include "api/measure/time_limit.h"
 #include "calibration/learn/slip_kinds.h"
 
 namespace plenum::api {
@@ -39,6 +40,28 @@ void ReadUncertainty(Reader& document, Dataset& dataset) {
       uncertainty = reader->Number(name, {0, 10});
   }
   reader->Finish();
+}
+
+// A conductance, or what a pump delivers, is known only as well as the volume behind it: where
+// nothing is said of that, an uncertainty is assumed.
+void AssumeVolume(const Json& document, Dataset& dataset) {
+  using Kind = calibration::MeasuredNumber::Kind;
+  double& uncertainty =
+      dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)];
+  const Json stated = document.value("relative_uncertainty", Json::object());
+  const bool has = std::any_of(dataset.runs.begin(), dataset.runs.end(), [](const auto& run) {
+    return calibration::Has(run, Declared::kRestVolume);
+  });
+  const bool needs = std::any_of(
+      dataset.measured.begin(), dataset.measured.end(), [](const calibration::MeasuredNumber& one) {
+        return one.kind == Kind::kConductance || one.kind == Kind::kDelivery;
+      });
+  if (!has || !needs || !stated.is_object() || stated.contains("rest_volume")) return;
+  uncertainty = kAssumedVolumeShare;
+  if (RemarkRecorder* recorder = RemarkRecorder::Current())
+    recorder->Warn("/relative_uncertainty/rest_volume",
+                   "is not stated: 2 % is assumed, and what is measured is no better known than "
+                   "that. Weigh the bottle empty and full of water, and state 0.002");
 }
 
 // A pump that is measured has one curve, whose points are those of all runs.
@@ -70,6 +93,37 @@ void TakeSpecimens(Reader& document, Dataset& dataset) {
     }
 }
 
+std::vector<std::string> NamesOf(const calibration::Several& several) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < several.pieces(); ++i) names.push_back(several.piece(i).name);
+  return names;
+}
+
+// Several chambers stand where specimens would, and the runs of their gauges behind all others.
+void TakeSeveral(Reader& document, std::vector<calibration::Run>& of_gauges, Dataset& dataset) {
+  const auto& runs = dataset.runs;
+  if (std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.several.empty(); }))
+    return;
+  const std::vector<std::string> names = NamesOf(runs.front().several);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string place = "runs/" + std::to_string(i);
+    if (NamesOf(runs[i].several) != names)
+      document.FailAt(place + "/rig", "must have the chambers of the first run");
+    if (runs[i].id.find('[') != std::string::npos)
+      document.FailAt(place + "/id", "must not hold [ where the rig has several chambers");
+  }
+  if (!dataset.specimens.empty())
+    document.Fail("runs", "must not name specimens where the rig has several chambers");
+  dataset.specimens = names;
+  dataset.several = true;
+  const std::vector<std::string> held_out = dataset.holdout;
+  for (calibration::Run& run : of_gauges) {
+    if (std::find(held_out.begin(), held_out.end(), run.several.shot) != held_out.end())
+      dataset.holdout.push_back(run.id);
+    dataset.runs.push_back(std::move(run));
+  }
+}
+
 void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Dataset& dataset) {
   for (std::size_t i = 0; i < dataset.holdout.size(); ++i) {
     if (ids.contains(dataset.holdout[i])) continue;
@@ -92,7 +146,7 @@ void TakeAccuracy(Dataset& dataset) {
     const double ambient_pa = run.ambient.pressure_pa;
     const double full_pa = sensor.HasRange() ? std::max(std::abs(sensor.high_pa - ambient_pa),
                                                         std::abs(sensor.low_pa - ambient_pa))
-                                             : run.chamber.operating_pressure_pa - ambient_pa;
+                                             : model::Span(run.chamber);
     const auto raise = [&](Declared number, double share) {
       double& uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(number)];
       uncertainty = std::max(uncertainty, share);
@@ -100,6 +154,18 @@ void TakeAccuracy(Dataset& dataset) {
     raise(Declared::kSensorZero, sensor.accuracy_pa / calibration::kSensorZeroPa);
     raise(Declared::kSensorGain, sensor.accuracy_pa / full_pa);
   }
+}
+
+// Of the readings of a run in the document.
+std::string PlaceOfReadings(const Dataset& dataset, std::size_t index) {
+  const calibration::Run& run = dataset.runs[index];
+  const calibration::Several& several = run.several;
+  std::size_t shot = 0;
+  while (shot < index && dataset.runs[shot].id != several.shot) ++shot;
+  const std::string place = "runs/" + std::to_string(shot);
+  if (several.empty() || shot == index)
+    return "runs/" + std::to_string(index) + "/pressure_kpa_gauge";
+  return place + "/channels/chambers/" + several.all[several.gauge].name;
 }
 
 // Readings far beyond the range are of another sensor, or in another unit.
@@ -114,10 +180,10 @@ void CheckRanges(Reader& document, const Dataset& dataset) {
     });
     if (off == run.pressure_pa.end()) continue;
     const auto kpa = [&](double pa) { return Decimal(Rounded(KpaGaugeFromPa(pa, run.ambient))); };
-    document.FailAt("runs/" + std::to_string(i) + "/pressure_kpa_gauge/" +
-                        std::to_string(off - run.pressure_pa.begin()),
-                    "is " + kpa(*off) + " kPa, beyond the sensor's range_kpa_gauge of " +
-                        kpa(sensor.low_pa) + " to " + kpa(sensor.high_pa));
+    document.FailAt(
+        PlaceOfReadings(dataset, i) + "/" + std::to_string(off - run.pressure_pa.begin()),
+        "is " + kpa(*off) + " kPa, beyond the sensor's range_kpa_gauge of " + kpa(sensor.low_pa) +
+            " to " + kpa(sensor.high_pa));
   }
 }
 
@@ -166,18 +232,22 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   Reader reader(document, "", errors);
   AllowRemarks(reader);
   PassUnderstood(reader);
+  reader.Number(kTimeLimitField, {0.01, kDiagnosisTimeMaxS}, kDiagnosisTimeS);  // of its diagnosis
   reader.Schema("measurement/1");
   dataset.name = reader.Text("name", "measurement");
   static const Json kNoRig = Json::object();
   const Json* shared = reader.Has("rig") ? reader.Raw("rig") : &kNoRig;
   ReadUncertainty(reader, dataset);
   std::set<std::string> ids;
+  std::vector<calibration::Run> of_gauges;
   for (const Element& element : reader.List("runs", 1, kRunsMax))
-    dataset.runs.push_back(ReadRun(element, *shared, ids, dataset, errors));
+    dataset.runs.push_back(ReadRun(element, *shared, ids, dataset, of_gauges, errors));
   TakeSpecimens(reader, dataset);
   CheckDelivery(reader, dataset);
+  if (document.is_object()) AssumeVolume(document, dataset);
   dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
   CheckHoldout(reader, ids, dataset);
+  TakeSeveral(reader, of_gauges, dataset);
   ReadAssumptions(reader, dataset);
   TakeAccuracy(dataset);
   CheckRanges(reader, dataset);

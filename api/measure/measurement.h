@@ -15,6 +15,9 @@
 
 namespace plenum::api {
 
+// Of a bottle's volume of which nothing is said, one standard deviation.
+inline constexpr double kAssumedVolumeShare = 0.02;
+
 // Every error at once, each with its pointer; at most kSeriesErrors of one list of samples.
 // `remarks`, if asked for, belong to a document without errors.
 Parsed<calibration::Dataset> ParseMeasurement(const Json& document, Remarks* remarks = nullptr);

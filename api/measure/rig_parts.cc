@@ -19,17 +19,30 @@ class Filling {
 
   void OfRig(Json& rig, const std::string& pointer) {
     if (!rig.is_object()) return;
-    if (rig.contains("line") && rig["line"].is_object() && rig["line"].contains("elements") &&
-        rig["line"]["elements"].is_array()) {
-      std::size_t i = 0;
-      for (Json& element : rig["line"]["elements"])
-        OfElement(element, pointer + "/line/elements/" + std::to_string(i++));
-    }
+    OfLine(rig, pointer);
     if (rig.contains("actuator")) OfActuator(rig["actuator"], pointer + "/actuator");
+    if (rig.contains("chambers") && rig["chambers"].is_array()) {
+      std::size_t i = 0;
+      for (Json& chamber : rig["chambers"]) {
+        const std::string place = pointer + "/chambers/" + std::to_string(i++);
+        OfLine(chamber, place);
+        OfActuator(chamber, place);
+      }
+    }
     if (rig.contains("supply")) OfSupply(rig["supply"], pointer + "/supply");
   }
 
  private:
+  // Of the rig or of one of its chambers.
+  void OfLine(Json& owner, const std::string& pointer) {
+    if (!owner.is_object() || !owner.contains("line") || !owner["line"].is_object() ||
+        !owner["line"].contains("elements") || !owner["line"]["elements"].is_array())
+      return;
+    std::size_t i = 0;
+    for (Json& element : owner["line"]["elements"])
+      OfElement(element, pointer + "/line/elements/" + std::to_string(i++));
+  }
+
   void Fail(std::string pointer, std::string detail) {
     errors_.push_back({std::move(pointer), std::move(detail)});
   }

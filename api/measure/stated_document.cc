@@ -8,7 +8,7 @@
 #include "api/json/request_limits.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
-#include "api/simulate/effects.h"
+#include "api/measure/rig/chamber_words.h"
 #include "calibration/judge/verdict.h"
 
 namespace plenum::api {
@@ -155,10 +155,12 @@ void AddStatedModels(const calibration::Diagnosis& diagnosis, const Dataset& dat
   answer["runs"] = answer["held_out_fitted"] = Json::array();
   const auto models = ModelsOf(diagnosis);
   for (const auto& [name, model] : models) {
-    answer[name]["effects"] = RenderEffects(model->state.effects);
+    answer[name]["effects"] = RenderPlaced(model->state.effects, dataset);
     answer[name]["factors"] = RenderFactors(model->state.factor);
     if (!dataset.measured.empty())
       answer[name]["measured_si"] = RenderMeasured(model->state.measured);
+    if (dataset.several)
+      answer[name]["chamber_factors"] = RenderChamberFactors(model->state, dataset);
   }
   for (std::size_t i = 0; i < diagnosis.models.runs.size(); ++i) {
     const Run& run = dataset.runs[i];
@@ -186,8 +188,10 @@ Parsed<StatedAnswer> ParseStatedModel(const Json& answer, const std::string& mod
   Reader of_all = reader.Object(model);
   const std::size_t count = dataset.runs.size();
   calibration::ModelState& state = stated.model.state;
-  state.effects = ReadEffects(of_all);
+  state.effects = ReadPlaced(of_all, dataset);
   state.factor = ReadFactors(of_all);
+  stated.model.several = dataset.several;
+  ReadChamberFactors(of_all, dataset, state);
   state.measured = ReadMeasured(of_all, dataset);
   state.initial_pressure_pa.resize(count);
   state.initial_temperature_k.resize(count);
@@ -205,7 +209,7 @@ Parsed<StatedAnswer> ParseStatedModel(const Json& answer, const std::string& mod
     stated.runs.push_back(ReadHow(run, dataset, dataset.runs[i]));
     ReadOwn(run.Object(model), dataset.runs[i], i, stated.model);
   }
-  if (errors.empty())
+  if (errors.empty() && !dataset.several)  // of each chamber when it is simulated
     if (const std::string why = model::WhyInvalid(state.effects); !why.empty())
       errors.push_back({"/" + model + "/effects", why});
   if (!errors.empty()) return errors;

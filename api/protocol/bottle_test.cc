@@ -6,6 +6,8 @@
 #include <string>
 
 #include "api/json/units.h"
+#include "api/measure/measurement.h"
+#include "api/measure/time_limit.h"
 #include "model/effects/registry.h"
 
 namespace plenum::api {
@@ -14,11 +16,14 @@ namespace {
 constexpr std::array kBottlesL = {0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};
 constexpr double kSourceKpa = 600.0;    // of the usual wall supply
 constexpr double kOfRating = 0.9;       // at most, of what the part stands
-constexpr double kBottleShare = 0.002;  // uncertainty of a bottle weighed full of water
 constexpr double kSourceShare = 0.005;  // of a regulator's setting, read by the same sensor
 constexpr double kRestS = 1.0, kSettleS = 5.0;
 constexpr double kSamplesMost = 4'000.0;  // of a run: more tell little more
 constexpr int kRepeats = 3;
+constexpr double kDiagnosisS = 300.0;  // a pump's dozen numbers take a minute of a slow core
+constexpr const char* kAssumed =
+    "rest_volume is assumed: weigh the bottle empty and full of water, write its volume into "
+    "rest_volume_ml, and 0.002 here";
 constexpr const char* kBehindPump = "2 mL";  // between the pump's valve and the hose
 constexpr double kPumpS = 60.0;              // that a pump should take for its bottle
 constexpr double kPumpReach = 0.95;          // of the last pressure at which it delivers
@@ -72,7 +77,15 @@ Json Schedule(const Strokes& strokes, double rest_s, double& end_s) {
   return valve;
 }
 
-Json Measurement(const catalog::Part& part, double bottle_l, double highest_kpa) {
+Json Uncertainties(const TestSensor& sensor) {
+  Json uncertainty = {
+      {"rest_volume", Number(sensor.bottle_uncertainty.value_or(kAssumedVolumeShare))}};
+  if (!sensor.bottle_uncertainty) uncertainty["note"] = kAssumed;
+  return uncertainty;
+}
+
+Json Measurement(const catalog::Part& part, const TestSensor& sensor, double bottle_l,
+                 double highest_kpa) {
   return {{"schema", "measurement/1"},
           {"name", "bottle test of " + part.id},
           {"rig",
@@ -81,8 +94,27 @@ Json Measurement(const catalog::Part& part, double bottle_l, double highest_kpa)
               {"expansion_ratio", 1.0},
               {"operating_pressure_kpa_gauge", Number(highest_kpa)}}},
             {"ambient", {{"pressure_kpa_abs", 100.0}, {"temperature_k", 293.15}}}}},
-          {"relative_uncertainty", {{"rest_volume", kBottleShare}}},
+          {"relative_uncertainty", Uncertainties(sensor)},
           {"runs", Json::array()}};
+}
+
+// The usual bottle below, or above the smallest one.
+double OtherBottle(double bottle_l) {
+  const auto* bottle = std::lower_bound(kBottlesL.begin(), kBottlesL.end(), bottle_l);
+  return bottle == kBottlesL.begin() ? kBottlesL[1] : *(bottle - 1);
+}
+
+// Strokes last as the volume is.
+void AddCheck(const Strokes& strokes, double rest_s, BottleTest& test) {
+  test.check_bottle_l = OtherBottle(test.bottle_l);
+  const double ratio = test.check_bottle_l / test.bottle_l;
+  double end_s = 0.0;
+  test.check_run = test.measurement["runs"].front();
+  test.check_run["id"] = "check";
+  test.check_run["specimen"] = "second bottle";
+  test.check_run["rig"] = {{"actuator", {{"rest_volume_ml", Number(1e3 * test.check_bottle_l)}}}};
+  test.check_run["valve"] =
+      Schedule({ratio * strokes.fill_s, ratio * strokes.empty_s}, rest_s, end_s);
 }
 
 void AddRuns(const Strokes& strokes, double rest_s, double sampling_hz, BottleTest& test) {
@@ -99,6 +131,7 @@ void AddRuns(const Strokes& strokes, double rest_s, double sampling_hz, BottleTe
       run["source_pressure_kpa_gauge"] = Number(test.source_kpa_gauge);
     test.measurement["runs"].push_back(std::move(run));
   }
+  AddCheck(strokes, rest_s, test);
 }
 
 // τ goes with the pressure and the ratio of volume to wall.
@@ -116,7 +149,7 @@ BottleTest FlowTest(const catalog::Part& part, const TestSensor& sensor, double 
   const double ratio = (test.source_kpa_gauge + 100.0) / 100.0;
   const Strokes strokes{1.7 * test.bottle_l / fill_c,
                         (std::log(ratio) + 2.0) * test.bottle_l / exhaust_c};
-  test.measurement = Measurement(part, test.bottle_l, test.source_kpa_gauge);
+  test.measurement = Measurement(part, sensor, test.bottle_l, test.source_kpa_gauge);
   Json& rig = test.measurement["rig"];
   rig["line"] = {{"elements", Json::array({{{"part", part.id}, {"measure", measure}}})}};
   rig["supply"] = {{"kind", "regulated"}};
@@ -156,7 +189,7 @@ BottleTest RegulatorTest(const catalog::Part& part, const TestSensor& sensor) {
       stays_open ? test.source_kpa_gauge
                  : std::min(kRegulatorReach * setting_kpa, 0.9 * test.source_kpa_gauge);
   const double time_constants = stays_open ? 1.7 : reach_kpa / (test.source_kpa_gauge + 100.0);
-  test.measurement = Measurement(part, test.bottle_l, test.source_kpa_gauge);
+  test.measurement = Measurement(part, sensor, test.bottle_l, test.source_kpa_gauge);
   Json& rig = test.measurement["rig"];
   rig["line"] = {
       {"elements",
@@ -207,7 +240,7 @@ std::optional<BottleTest> PumpTest(const catalog::Part& part, const TestSensor& 
   const double seconds_per_l = FillSecondsPerL(*part.curve, end_kpa);
   BottleTest test;
   test.bottle_l = BottleFor(sensor, kPumpS / seconds_per_l);
-  test.measurement = Measurement(part, test.bottle_l, std::ceil(end_kpa));
+  test.measurement = Measurement(part, sensor, test.bottle_l, std::ceil(end_kpa));
   Json& rig = test.measurement["rig"];
   rig["line"] = {
       {"elements", Json::array({{{"tube", {{"inner_diameter_mm", 4.0}, {"length_m", 0.3}}}}})}};
@@ -236,6 +269,14 @@ std::optional<BottleTest> MakeBottleTest(const catalog::Part& part, const TestSe
   if (test && sensor.resolution_kpa > 0.0)
     test->measurement["rig"]["sensor"] = {{"resolution_kpa", Number(sensor.resolution_kpa)}};
   return test;
+}
+
+Json TemplateOf(const BottleTest& test) {
+  Json document = test.measurement;
+  for (Json& run : document["runs"]) run["specimen"] = "first bottle";
+  document["runs"].push_back(test.check_run);
+  document[kTimeLimitField] = kDiagnosisS;
+  return document;
 }
 
 }  // namespace plenum::api

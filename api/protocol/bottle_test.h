@@ -20,7 +20,13 @@ struct BottleTest {
   double sampling_hz = 0.0;                       // at most the sensor's
   int repeats = 0;
   std::vector<model::Effect> effects;  // of a bare bottle: heat of its wall
+  double check_bottle_l = 0.0;         // another bottle, of which the volume is checked by
+  Json check_run;                      // one run with it
 };
+
+// The measurement as the template of a recording: with the run of the other bottle, and the time
+// that its diagnosis may take.
+Json TemplateOf(const BottleTest& test);
 
 // Of a valve, fitting, regulator or compressor. The bottle is the smallest usual one in which a
 // stroke lasts kStrokeLeastS and kStrokeSamples samples, unless the sensor's `bottle_l` says one.

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <string>
+#include <utility>
 
 #include "api/catalogue/part_document.h"
 #include "api/json/words.h"
+#include "api/protocol/piece_tests.h"
 #include "catalog/fields/fields.h"
 #include "catalog/fields/half_width.h"
 
@@ -33,59 +34,148 @@ double Round(double value, const char* format) {
 }
 double Digits(double value) { return Round(value, "%.6g"); }
 
-Known Combined(const Known& a, const Known& b) {
-  const double weight_a = 1.0 / (a.deviation * a.deviation);
-  const double weight_b = 1.0 / (b.deviation * b.deviation);
-  const double sum = weight_a + weight_b;
-  return {(weight_a * a.value + weight_b * b.value) / sum, 1.0 / std::sqrt(sum)};
+bool IsOff(double before, double room, const Known& measured) {
+  return std::abs(measured.value - before) > std::hypot(room, kTwoSided95 * measured.deviation);
 }
 
-// How far the number may be from what stands in the catalogue.
-double RoomOf(double value, Origin provenance, const std::optional<double>& uncertainty) {
-  const double share = provenance == Origin::kMeasured && uncertainty
-                           ? kTwoSided95 * *uncertainty
-                           : catalog::Tolerance().Of(provenance, uncertainty);
-  return share * std::abs(value);
-}
-
-std::string Contradiction(double before, double room, const Known& measured,
-                          std::string_view provenance) {
-  const double apart = std::abs(measured.value - before);
-  if (apart <= std::hypot(room, kTwoSided95 * measured.deviation)) return "";
+std::string Contradiction(double before, const Known& measured, std::string_view of) {
   return "measured " + Decimal(Digits(measured.value)) + " is off " + Decimal(Digits(before)) +
-         " (" + std::string(provenance) + ") by more than the uncertainties of both";
+         " (" + std::string(of) + ") by more than the uncertainties of both";
 }
+
+std::string OfEstimate(double before, const Known& measured) {
+  const double share = before / measured.value - 1.0;
+  return "the estimate " + Decimal(Digits(before)) + " was " +
+         Decimal(Round(100.0 * std::abs(share), "%.2g")) + " % too " +
+         (share < 0.0 ? "low" : "high");
+}
+
+// What the catalogue has of a number, or of a curve at its points.
+struct Stored {
+  std::vector<double> values;
+  Origin provenance = Origin::kEstimated;
+  std::optional<double> uncertainty;
+  std::string source;
+};
+
+// The tests of pieces behind it; none where it was not measured with an uncertainty. What was
+// written by hand since is a test of a piece without a name.
+std::vector<PieceTest> TestsBehind(const Stored& stored) {
+  if (stored.provenance != Origin::kMeasured || !(stored.uncertainty.value_or(0.0) > 0.0))
+    return {};
+  constexpr double kSame = 1e-4;
+  std::vector<PieceTest> pieces = PiecesOf(stored.source);
+  if (!pieces.empty() && pieces.front().values.size() == stored.values.size()) {
+    const std::vector<double> mean = OfType(pieces).values;
+    const bool same = std::equal(
+        mean.begin(), mean.end(), stored.values.begin(),
+        [](double one, double other) { return std::abs(one - other) <= kSame * std::abs(other); });
+    if (same) return pieces;
+  }
+  return {{"", stored.values, *stored.uncertainty}};
+}
+
+// A new test beside what the catalogue has.
+class NewTest {
+ public:
+  NewTest(Stored stored, PieceTest test)
+      : stored_(std::move(stored)), test_(std::move(test)), pieces_(TestsBehind(stored_)) {
+    own_ = std::find_if(pieces_.begin(), pieces_.end(),
+                        [&](const PieceTest& one) { return one.piece == test_.piece; });
+  }
+
+  // What the test says of one point against what is known of its piece, or of the type: off it, in
+  // words. `least` is the least that its room is a share of.
+  std::optional<std::string> OffAt(std::size_t at, const Known& measured, double least) const {
+    if (own_ != pieces_.end()) {
+      const double before = own_->values[at];
+      const double room = kTwoSided95 * own_->uncertainty * std::max(before, least);
+      if (!IsOff(before, room, measured)) return {};
+      return Contradiction(before, measured, "measured");
+    }
+    if (!pieces_.empty()) return {};  // another piece: what they differ in is their spread
+    const double before = stored_.values[at];
+    const double share = catalog::Tolerance().Of(stored_.provenance, stored_.uncertainty);
+    if (!IsOff(before, share * std::max(before, least), measured)) return {};
+    if (stored_.provenance == Origin::kEstimated) return OfEstimate(before, measured);
+    return Contradiction(before, measured, catalog::Name(stored_.provenance));
+  }
+
+  bool OfAnEstimate() const { return stored_.provenance == Origin::kEstimated; }
+  bool Combines(bool contradicted) const { return own_ != pieces_.end() && !contradicted; }
+
+  // All pieces with the new test; one that contradicts takes the place of those of its piece.
+  std::vector<PieceTest> Pieces(bool contradicted) const {
+    std::vector<PieceTest> pieces = pieces_;
+    if (own_ == pieces_.end())
+      pieces.push_back(test_);
+    else
+      pieces[static_cast<std::size_t>(own_ - pieces_.begin())] =
+          contradicted ? test_ : Combined(*own_, test_);
+    return pieces;
+  }
+
+ private:
+  Stored stored_;
+  PieceTest test_;
+  std::vector<PieceTest> pieces_;
+  std::vector<PieceTest>::iterator own_;
+};
 
 class Revising {
  public:
-  Revising(const catalog::Part& part, const Json& answer, const Files& files, bool anyway)
-      : part_(part), answer_(answer), files_(files), anyway_(anyway) {}
+  Revising(const catalog::Part& part, const Json& answer, const Files& files, bool anyway,
+           std::string specimen)
+      : part_(part),
+        answer_(answer),
+        files_(files),
+        anyway_(anyway),
+        specimen_(std::move(specimen)) {}
 
   PartRevision Take() {
-    told_ = {{"part", part_.id}, {"numbers", Json::array()}, {"refused", Json::array()}};
-    for (const Json& reason : answer_.at("measured_refused")) Refuse(reason.get<std::string>());
-    RefuseRepeated();
-    if (told_["refused"].empty()) TakeNumbers();
-    if (told_["refused"].empty() && !any_) Refuse("no number of " + part_.id + " was measured");
-    if (told_["refused"].empty()) AddDocuments();
+    told_ = {{"part", part_.id},
+             {"specimen", specimen_.empty() ? Json(nullptr) : Json(specimen_)},
+             {"numbers", Json::array()},
+             {"refused", Json::array()}};
+    for (const Json& reason : answer_.at("measured_refused")) Block(reason.get<std::string>());
+    repeated_ = Repeated();
+    if (!blocked_) TakeNumbers();
+    if (!blocked_ && !written_) RefuseEmpty();
+    if (written_) AddDocuments();
     for (const catalog::FieldError& error : catalog::Validate(part_))
-      Refuse(error.field + ": " + error.detail);
+      Block(error.field + ": " + error.detail);
     PartRevision revision;
-    if (told_["refused"].empty()) revision.part = std::move(part_);
+    if (!blocked_ && written_) revision.part = std::move(part_);
     revision.told = std::move(told_);
     return revision;
   }
 
  private:
   void Refuse(std::string reason) { told_["refused"].push_back(std::move(reason)); }
+  // Against writing any number.
+  void Block(std::string reason) {
+    blocked_ = true;
+    Refuse(std::move(reason));
+  }
 
-  // A recording is no second test of the part.
-  void RefuseRepeated() {
+  bool IsDocument(const Provenance::File& file) const {
+    return std::any_of(
+        part_.documents.begin(), part_.documents.end(),
+        [&](const catalog::Document& document) { return document.sha256 == file.sha256; });
+  }
+  // A recording is no second test of the part: of it only what was not written may be.
+  bool Repeated() const {
+    return std::any_of(files_.begin(), files_.end(),
+                       [this](const auto& file) { return IsDocument(file); });
+  }
+
+  void RefuseEmpty() {
+    if (!told_["numbers"].empty()) return;  // each says why
+    if (!repeated_) return Refuse("no number of " + part_.id + " was measured");
     for (const auto& file : files_)
-      for (const catalog::Document& document : part_.documents)
-        if (document.sha256 == file.sha256)
-          Refuse(file.name + " is among the documents of " + part_.id +
-                 ": its numbers were saved before");
+      if (IsDocument(file))
+        Refuse(file.name + " is among the documents of " + part_.id +
+               ": its numbers were saved before");
   }
 
   void TakeNumbers() {
@@ -100,96 +190,122 @@ class Revising {
     if (!curve.empty()) TakeCurve(curve);
   }
 
-  std::string Source() const {
+  std::string Source(const std::vector<PieceTest>& pieces) const {
     std::string names;
     for (const auto& file : files_) names += (names.empty() ? "" : ", ") + file.name;
-    return "fitted to " + Clip(names, 120);
-  }
-
-  void Tell(const std::string& field, double before, Origin provenance,
-            const std::optional<double>& before_uncertainty, const Known& measured,
-            const Known& kept, bool combined, const std::string& contradiction) {
-    any_ = true;
-    told_["numbers"].push_back(
-        {{"field", field},
-         {"before", Number(before)},
-         {"before_provenance", catalog::Name(provenance)},
-         {"before_uncertainty", before_uncertainty ? Number(*before_uncertainty) : Json(nullptr)},
-         {"measured", Number(Digits(measured.value))},
-         {"uncertainty", Number(kept.deviation / kept.value)},
-         {"value", Number(Digits(kept.value))},
-         {"combined", combined},
-         {"contradiction", contradiction.empty() ? Json(nullptr) : Json(contradiction)}});
-    if (!contradiction.empty() && !anyway_) Refuse(field + ": " + contradiction);
+    const std::string source = answer_.contains("by_hand")
+                                   ? Clip(answer_.at("by_hand").get<std::string>(), 120)
+                                   : "fitted to " + Clip(names, 120);
+    const bool nameless = pieces.size() == 1u && pieces.front().piece.empty();
+    return nameless ? source : WithPieces(source, pieces);
   }
 
   void TakeNumber(const Json& row) {
     const auto field = row.at("field").get<std::string>();
     const auto stored = part_.numbers.find(field);
-    if (stored == part_.numbers.end()) return Refuse(part_.id + " has no " + field);
+    if (stored == part_.numbers.end()) return Block(part_.id + " has no " + field);
     catalog::Number& number = stored->second;
     const double value = row.at("fitted").get<double>();
-    const Known measured{value, value * row.at("uncertainty").get<double>()};
-    const std::string contradiction =
-        Contradiction(number.value, RoomOf(number.value, number.provenance, number.uncertainty),
-                      measured, catalog::Name(number.provenance));
-    const bool combines = contradiction.empty() && number.provenance == Origin::kMeasured &&
-                          number.uncertainty && *number.uncertainty > 0.0;
-    const Known kept = combines
-                           ? Combined({number.value, number.value * *number.uncertainty}, measured)
-                           : measured;
-    Tell(field, number.value, number.provenance, number.uncertainty, measured, kept, combines,
-         contradiction);
-    number = {.value = Digits(kept.value),
+    const double share = row.at("uncertainty").get<double>();
+    const Known measured{value, value * share};
+    const NewTest test({{number.value}, number.provenance, number.uncertainty, number.source},
+                       {specimen_, {value}, share});
+    const std::optional<std::string> off = test.OffAt(0, measured, 0.0);
+    const bool contradicted = off && !test.OfAnEstimate();
+    if (repeated_ && !contradicted) return;
+    const std::vector<PieceTest> pieces = test.Pieces(contradicted);
+    const TypeNumber type = OfType(pieces);
+    Json told = {{"field", field},
+                 {"before", Number(number.value)},
+                 {"before_provenance", catalog::Name(number.provenance)},
+                 {"before_uncertainty", NumberOrNull(number.uncertainty)},
+                 {"measured", Number(Digits(value))},
+                 {"uncertainty", Number(type.uncertainty)},
+                 {"value", Number(Digits(type.values.front()))},
+                 {"combined", test.Combines(contradicted)}};
+    Tell(std::move(told), type, pieces.size(), off, contradicted);
+    if (contradicted && !anyway_) return;
+    written_ = true;
+    number = {.value = Digits(type.values.front()),
               .provenance = Origin::kMeasured,
-              .source = Source(),
-              .uncertainty = Round(kept.deviation / kept.value, "%.3g")};
+              .source = Source(pieces),
+              .uncertainty = Round(type.uncertainty, "%.3g")};
   }
 
+  static Json NumberOrNull(const std::optional<double>& number) {
+    return number ? Number(*number) : Json(nullptr);
+  }
+
+  void Tell(Json told, const TypeNumber& type, std::size_t pieces,
+            const std::optional<std::string>& off, bool contradicted) {
+    told["pieces"] = pieces;
+    told["spread"] = NumberOrNull(type.spread);
+    told["standard_error"] = NumberOrNull(type.standard_error);
+    told["contradiction"] = contradicted ? Json(*off) : Json(nullptr);
+    told["warning"] = off && !contradicted ? Json(*off) : Json(nullptr);
+    told["written"] = !contradicted || anyway_;
+    if (contradicted && !anyway_) Refuse(told["field"].get<std::string>() + ": " + *off);
+    told_["numbers"].push_back(std::move(told));
+  }
+
+  // The curve is one number: it is written whole, or not.
   void TakeCurve(const std::vector<const Json*>& rows) {
     if (!part_.curve || part_.curve->points.size() != rows.size())
-      return Refuse("the curve of " + part_.id + " has other points than the rig's");
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (const Json* row = rows[i];
-          !row->at("refused").is_null() && !Stays(part_.curve->points[i], *row))
-        return Refuse("free_air at " + Decimal(row->at("pressure_kpa_gauge").get<double>()) +
-                      " kPa " + row->at("refused").get<std::string>());
+      return Block("the curve of " + part_.id + " has other points than the rig's");
     catalog::Curve& curve = *part_.curve;
-    const double share = LargestShare(rows);
-    const bool combines = curve.free_air_provenance == Origin::kMeasured &&
-                          curve.free_air_uncertainty && *curve.free_air_uncertainty > 0.0;
-    const double before_share = combines ? *curve.free_air_uncertainty : 0.0;
-    std::vector<catalog::CurvePoint> points = curve.points;
-    bool contradicted = false;
+    Stored stored{{}, curve.free_air_provenance, curve.free_air_uncertainty, curve.free_air_source};
+    PieceTest fitted{specimen_, {}, LargestShare(rows)};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      double& flow = points[i].free_air_l_per_min;
-      if (Stays(points[i], *rows[i])) continue;
-      const double value = rows[i]->at("fitted").get<double>();
-      const double deviation = rows[i]->at("uncertainty").is_null()
-                                   ? 0.0
-                                   : value * rows[i]->at("uncertainty").get<double>();
-      const Known measured{value, deviation};
-      const std::string contradiction =
-          Contradiction(flow,
-                        RoomOf(std::max(flow, kCurveShare * points.front().free_air_l_per_min),
-                               curve.free_air_provenance, curve.free_air_uncertainty),
-                        measured, catalog::Name(curve.free_air_provenance));
-      const bool both = combines && contradiction.empty() && flow > 0.0 && value > 0.0;
-      const Known kept =
-          both ? Combined({flow, flow * before_share}, {value, value * share}) : measured;
-      if (value > 0.0)
-        Tell("free_air at " + Decimal(points[i].pressure_kpa_gauge) + " kPa", flow,
-             curve.free_air_provenance, curve.free_air_uncertainty, measured, kept, both,
-             contradiction);
-      contradicted = contradicted || !contradiction.empty();
-      flow = Digits(kept.value);
+      const bool stays = Stays(curve.points[i], *rows[i]);
+      if (!rows[i]->at("refused").is_null() && !stays)
+        return Block("free_air at " + Decimal(rows[i]->at("pressure_kpa_gauge").get<double>()) +
+                     " kPa " + rows[i]->at("refused").get<std::string>());
+      stored.values.push_back(curve.points[i].free_air_l_per_min);
+      fitted.values.push_back(stays ? stored.values.back() : rows[i]->at("fitted").get<double>());
     }
-    curve.points = std::move(points);
-    curve.free_air_uncertainty =
-        Round(combines && !contradicted ? 1.0 / std::hypot(1.0 / before_share, 1.0 / share) : share,
-              "%.3g");
+    const NewTest test(stored, fitted);
+    std::vector<std::optional<std::string>> off(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!Stays(curve.points[i], *rows[i]))
+        off[i] = test.OffAt(i, {fitted.values[i], DeviationOf(*rows[i])},
+                            kCurveShare * stored.values.front());
+    const bool any_off = std::any_of(off.begin(), off.end(), [](const auto& one) { return one; });
+    const bool contradicted = any_off && !test.OfAnEstimate();
+    if (repeated_ && !contradicted) return;
+    const std::vector<PieceTest> pieces = test.Pieces(contradicted);
+    const TypeNumber type = OfType(pieces);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (fitted.values[i] > 0.0 && !Stays(curve.points[i], *rows[i]))
+        TellPoint(curve, i, fitted.values[i], type, pieces.size(), test.Combines(contradicted),
+                  off[i], contradicted);
+    if (contradicted && !anyway_) return;
+    written_ = true;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      curve.points[i].free_air_l_per_min = Digits(type.values[i]);
+    curve.free_air_uncertainty = Round(type.uncertainty, "%.3g");
     curve.free_air_provenance = Origin::kMeasured;
-    curve.free_air_source = Source();
+    curve.free_air_source = Source(pieces);
+  }
+
+  void TellPoint(const catalog::Curve& curve, std::size_t i, double fitted, const TypeNumber& type,
+                 std::size_t pieces, bool combined, const std::optional<std::string>& off,
+                 bool contradicted) {
+    const catalog::CurvePoint& point = curve.points[i];
+    Json told = {{"field", "free_air at " + Decimal(point.pressure_kpa_gauge) + " kPa"},
+                 {"before", Number(point.free_air_l_per_min)},
+                 {"before_provenance", catalog::Name(curve.free_air_provenance)},
+                 {"before_uncertainty", NumberOrNull(curve.free_air_uncertainty)},
+                 {"measured", Number(Digits(fitted))},
+                 {"uncertainty", Number(type.uncertainty)},
+                 {"value", Number(Digits(type.values[i]))},
+                 {"combined", combined}};
+    Tell(std::move(told), type, pieces, off, contradicted && off);
+    told_["numbers"].back()["written"] = !contradicted || anyway_;
+  }
+
+  static double DeviationOf(const Json& row) {
+    if (row.at("uncertainty").is_null()) return 0.0;
+    return row.at("fitted").get<double>() * row.at("uncertainty").get<double>();
   }
 
   // The end of the table, where the pump may well deliver nothing: a test that ends before its
@@ -210,7 +326,9 @@ class Revising {
   }
 
   void AddDocuments() {
-    for (const auto& file : files_) part_.documents.push_back({file.name, file.sha256});
+    const std::string piece = specimen_.empty() ? "" : ", piece " + specimen_;
+    for (const auto& file : files_)
+      if (!IsDocument(file)) part_.documents.push_back({file.name + piece, file.sha256});
     part_.origin = "user";  // new seed rows do not take it back
   }
 
@@ -218,15 +336,17 @@ class Revising {
   const Json& answer_;
   const Files& files_;
   bool anyway_;
-  bool any_ = false;
+  std::string specimen_;
+  bool repeated_ = false, blocked_ = false, written_ = false;
   Json told_;
 };
 
 }  // namespace
 
 PartRevision RevisePart(const catalog::Part& part, const Json& answer,
-                        const std::vector<Provenance::File>& files, bool anyway) {
-  return Revising(part, answer, files, anyway).Take();
+                        const std::vector<Provenance::File>& files, bool anyway,
+                        const std::string& specimen) {
+  return Revising(part, answer, files, anyway, specimen).Take();
 }
 
 std::string WhyNotMeasured(const calibration::Dataset& dataset, const std::string& id) {
@@ -240,16 +360,28 @@ std::string WhyNotMeasured(const calibration::Dataset& dataset, const std::strin
          (ids.empty() ? ", and it says so of none" : ": " + OneOf(ids)) + "; not " + Quoted(id);
 }
 
+std::string WhyInvalidSpecimen(const std::string& specimen, const std::string& id) {
+  if (specimen.empty()) return "";
+  if (id.empty()) return "names a piece of no part: say which part is saved, too";
+  const bool plain = std::none_of(specimen.begin(), specimen.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+  });
+  if (plain && specimen.size() <= kSpecimenNameMax) return "";
+  return "must be a name of at most " + std::to_string(kSpecimenNameMax) +
+         " bytes on one line, not " + Quoted(specimen);
+}
+
 Json SavePart(catalog::Store& store, const std::string& id, const Json& answer,
-              const std::vector<Provenance::File>& files, bool anyway,
-              const catalog::Signature& by) {
+              const std::vector<Provenance::File>& files, bool anyway, const catalog::Signature& by,
+              const std::string& specimen) {
   const std::optional<catalog::Part> stored = store.Get(id);
   if (!stored)
     return {{"part", id},
+            {"specimen", specimen.empty() ? Json(nullptr) : Json(specimen)},
             {"numbers", Json::array()},
             {"refused", Json::array({"the catalogue has no part " + Quoted(id)})},
             {"revision", nullptr}};
-  PartRevision revised = RevisePart(*stored, answer, files, anyway);
+  PartRevision revised = RevisePart(*stored, answer, files, anyway, specimen);
   Json told = std::move(revised.told);
   told["revision"] = nullptr;
   if (!revised.part) return told;

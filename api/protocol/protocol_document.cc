@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "api/json/units.h"
 #include "api/json/version.h"
@@ -21,8 +23,6 @@ namespace {
 using calibration::Dataset;
 using calibration::MeasuredEstimate;
 
-// A curve has a dozen numbers: a diagnosis of three fillings takes one to two minutes.
-constexpr const char* kPumpTime = " --time-limit 300";
 constexpr double kRigShare = 0.8;  // of the variance: the rig decides how precise the number is
 
 std::string Percent(double share) {
@@ -53,18 +53,32 @@ Dataset DatasetOf(const BottleTest& test, const catalog::Part& part) {
 
 struct Precision {
   Json rows = Json::array(), warnings = Json::array();
+  std::vector<std::string> by_rig;  // numbers that are as precise as the rig is known
 };
 
 void Warn(const std::string& name, double uncertainty, double from_noise, bool told,
           Precision& precision) {
   if (!told)
-    precision.warnings.push_back("This test cannot tell " + name + ": it would be known to " +
-                                 Percent(uncertainty) +
-                                 " only. Take a faster or finer sensor, or a larger bottle.");
+    precision.warnings.push_back("This test cannot tell " + name +
+                                 (uncertainty < kNothingTold
+                                      ? ": it would be known to " + Percent(uncertainty) + " only."
+                                      : ".") +
+                                 " Take a faster or finer sensor, or a larger bottle.");
   else if (std::pow(from_noise / uncertainty, 2) < 1.0 - kRigShare)
-    precision.warnings.push_back(name +
-                                 " will be as precise as the bottle's volume, the source and "
-                                 "the room's temperature are known.");
+    precision.by_rig.push_back(name);
+}
+
+// One sentence for all: a curve has a dozen.
+void WarnOfRig(const BottleTest& test, Precision& precision) {
+  if (precision.by_rig.empty()) return;
+  const Json& volume = test.measurement["relative_uncertainty"]["rest_volume"];
+  std::string names;
+  for (const std::string& name : precision.by_rig) names += (names.empty() ? "" : ", ") + name;
+  precision.warnings.push_back(names +
+                               ": as precise as the bottle's volume, the source and the room's "
+                               "temperature are known. What the volume is wrong by, so is the "
+                               "number; here the volume is taken to be known to " +
+                               Percent(volume.get<double>()) + ".");
 }
 
 Precision PrecisionOfTest(const BottleTest& test, const catalog::Part& part,
@@ -108,6 +122,7 @@ Precision PrecisionOfTest(const BottleTest& test, const catalog::Part& part,
     Warn(name, uncertainty, from_noise, told, precision);
     precision.rows.push_back(std::move(row));
   }
+  WarnOfRig(test, precision);
   return precision;
 }
 
@@ -119,14 +134,14 @@ Json Equipment(const BottleTest& test) {
           {"sampling_hz", Number(test.sampling_hz)},
           {"duration_s", Number(duration_s)},
           {"samples", test.t_s.size()},
-          {"repeats", test.repeats}};
+          {"repeats", test.repeats},
+          {"check_bottle_l", Number(test.check_bottle_l)}};
 }
 
 Json Recording(const BottleTest& test, const catalog::Part& part) {
-  return {{"template", test.measurement},
+  return {{"template", TemplateOf(test)},
           {"columns", {"run", "t_s", "valve", "pressure_kpa_gauge"}},
-          {"command", "plenum diagnose recording.csv --rig template.json --save-part " + part.id +
-                          (part.family == "compressor" ? kPumpTime : "")}};
+          {"command", "plenum diagnose recording.csv --rig template.json --save-part " + part.id}};
 }
 
 void AddByHand(const Protocol& protocol, const catalog::Part& part, const TestSensor& sensor,
@@ -161,6 +176,25 @@ Json RenderTest(const Protocol& protocol, const catalog::Part& part, const TestS
   return test;
 }
 
+// Of every part with a mass: no recording tells it.
+Json RenderWeighing(const catalog::Part& part, const std::string& field) {
+  Json rows = Json::array();
+  for (const ReadNumber& number : WeighingOf(part, field))
+    rows.push_back({{"field", number.field},
+                    {"uncertainty", Number(number.uncertainty)},
+                    {"from_noise", Number(number.uncertainty)},
+                    {"from_rig", 0.0},
+                    {"told", true},
+                    {"how", number.how}});
+  return {{"protocol", "weighing"},
+          {"numbers", Json::array({field})},
+          {"steps", WeighingSteps(part, field)},
+          {"equipment", nullptr},
+          {"recording", nullptr},
+          {"precision", std::move(rows)},
+          {"warnings", Json::array()}};
+}
+
 }  // namespace
 
 Json RenderProtocol(const catalog::Part& part, const TestSensor& sensor) {
@@ -175,6 +209,8 @@ Json RenderProtocol(const catalog::Part& part, const TestSensor& sensor) {
   for (const Protocol& protocol : Protocols())
     if (protocol.family == part.family)
       document["tests"].push_back(RenderTest(protocol, part, sensor));
+  for (const char* field : {"mass_kg", "mass_kg_per_m"})
+    if (NumberOf(part, field) > 0.0) document["tests"].push_back(RenderWeighing(part, field));
   return document;
 }
 

@@ -34,6 +34,7 @@ Parsed<TestSensor> ParseTestSensor(const std::multimap<std::string, std::string>
       read("sensor_resolution_kpa", SensorKpaRange()).value_or(sensor.resolution_kpa);
   sensor.sampling_hz = read("sampling_hz", SamplingRange()).value_or(sensor.sampling_hz);
   sensor.bottle_l = read("bottle_l", BottleRange());
+  sensor.bottle_uncertainty = read("bottle_uncertainty", BottleUncertaintyRange());
   if (!errors.empty()) return errors;
   return sensor;
 }

@@ -17,13 +17,16 @@ struct TestSensor {
   double resolution_kpa = 0.1;
   double sampling_hz = 100.0;
   std::optional<double> bottle_l = {};
+  std::optional<double> bottle_uncertainty = {};  // relative; none: not weighed, assumed
 };
 
 inline Range SensorKpaRange() { return {0, 100}; }
 inline Range SamplingRange() { return {1, 1e5}; }
 inline Range BottleRange() { return {0.01, 1000}; }
+inline Range BottleUncertaintyRange() { return {1e-4, 0.25}; }
 
-// Query parameters of a protocol: sensor_noise_kpa, sensor_resolution_kpa, sampling_hz, bottle_l.
+// Query parameters of a protocol: sensor_noise_kpa, sensor_resolution_kpa, sampling_hz, bottle_l,
+// bottle_uncertainty.
 Parsed<TestSensor> ParseTestSensor(const std::multimap<std::string, std::string>& query);
 
 // 0 where the part does not have it.

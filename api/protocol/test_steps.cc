@@ -1,6 +1,7 @@
 #include "api/protocol/test_steps.h"
 
 #include <cmath>
+#include <cstdio>
 
 namespace plenum::api {
 namespace {
@@ -16,7 +17,15 @@ constexpr double kReadings = 10.0;           // that are averaged: more share th
 
 constexpr std::string_view kWeigh =
     "Weigh the bottle empty and full of water, with what lies between it and the part: its volume "
-    "is the difference, 1 g for 1 mL. Write it into rest_volume_ml of the template.";
+    "is the difference, 1 g for 1 mL. Write it into rest_volume_ml of the template, and how well "
+    "it "
+    "is known into relative_uncertainty.rest_volume: 0.002 for a litre on a scale of 1 g. What the "
+    "volume is wrong by, the part's numbers are wrong by, and no reading shows it: without a "
+    "weighing 2 % are assumed.";
+constexpr std::string_view kCheck =
+    "Record one more run (check) with a second bottle, weighed by itself: its volume is in that "
+    "run's rig. Both bottles must give the same numbers, else one of the volumes is wrong and "
+    "nothing is saved. Without a second bottle leave that run out of the template.";
 constexpr std::string_view kValve =
     "Connect in this order: regulated source, the part, bottle. Mount the sensor on the bottle "
     "itself, on a port of its own. Keep what lies between part and bottle short and wide, and "
@@ -105,10 +114,10 @@ struct Steps {
 
 const std::vector<Steps>& AllSteps() {
   static const std::vector<Steps> kAll = {
-      {"bottle_test", "valve", {kWeigh, kValve, kSource, kWatch, kRecord}},
-      {"bottle_test", "fitting", {kWeigh, kFitting, kSource, kWatch, kRecord}},
-      {"bottle_test", "regulator", {kWeigh, kRegulator, kSource, kWatch, kRecordFilling}},
-      {"bottle_test", "compressor", {kWeigh, kPump, kPumpRecord, kPumpHold, kPumpRead}},
+      {"bottle_test", "valve", {kWeigh, kValve, kSource, kWatch, kRecord, kCheck}},
+      {"bottle_test", "fitting", {kWeigh, kFitting, kSource, kWatch, kRecord, kCheck}},
+      {"bottle_test", "regulator", {kWeigh, kRegulator, kSource, kWatch, kRecordFilling, kCheck}},
+      {"bottle_test", "compressor", {kWeigh, kPump, kPumpRecord, kPumpHold, kCheck, kPumpRead}},
       {"volume_test", "reservoir", {kWater, kShareStep, kReservoirMean}},
       {"volume_test", "cylinder", {kCylinder, kShareStep, kCylinderMean, kCylinderFill}},
       {"duty_test", "compressor", {kDuty, kDutyHeat, kDutyMost}},
@@ -181,6 +190,66 @@ std::vector<ReadNumber> ReadByHand(std::string_view protocol, const catalog::Par
     return {{"capacity_ah", std::hypot(kMeterShare, kClockShare), "current times time"},
             {"current_max_a", 0.05, "steps of a tenth"}};
   return {};
+}
+
+namespace {
+
+// Usual steps of scales, g: kitchen, letter, jewel, laboratory.
+constexpr double kScalesG[] = {1.0, 0.1, 0.01, 0.001};
+constexpr double kScaleShare = 0.005;  // of the mass, that one step may be
+constexpr double kScaleGain = 0.001;   // of the reading, of a scale that was checked with a weight
+constexpr int kWeighings = 3;
+
+// The coarsest that will do; the finest where none does.
+double ScaleFor(double grams) {
+  for (const double step_g : kScalesG)
+    if (step_g <= kScaleShare * grams) return step_g;
+  return kScalesG[3];
+}
+
+std::string_view WhatToWeigh(std::string_view family) {
+  if (family == "valve")
+    return "Weigh the valve with its coil, plug and gaskets, as it is carried; base and screws "
+           "where it needs them.";
+  if (family == "compressor" || family == "vacuum_pump")
+    return "Weigh the pump with its check valve, leads and feet, as it is carried.";
+  if (family == "battery") return "Weigh the pack with its leads and plug.";
+  if (family == "cylinder") return "Weigh the cylinder empty, at ambient pressure, with its valve.";
+  if (family == "co2")
+    return "Weigh it full and again when it is empty: mass_kg is the empty mass, the difference "
+           "is co2_mass_kg.";
+  if (family == "reservoir") return "Weigh it empty, at ambient pressure, with its plugs.";
+  if (family == "tubing") return "Cut 1 m of the tube at right angles, measure it, and weigh it.";
+  return "Weigh it as it is carried. Of small pieces weigh ten of the same type together and "
+         "divide by ten.";
+}
+
+std::string Grams(double grams) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g g", grams);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> WeighingSteps(const catalog::Part& part, const std::string& field) {
+  const double grams = 1e3 * NumberOf(part, field.c_str());
+  return {"Take a scale whose step is " + Grams(ScaleFor(grams)) + " or less (the catalogue has " +
+              Grams(grams) + "), and check it with something of known mass.",
+          std::string(WhatToWeigh(part.family)),
+          "Weigh three times, with the scale at zero before each, and take the mean. Pieces of one "
+          "type differ: weigh each that you have, and name them.",
+          "Save it: plenum catalog measured " + part.id + " \"" + field +
+              "=25.3 g\" --uncertainty 0.005 (your reading and its uncertainty, one standard "
+              "deviation over the mean), with --specimen NAME for a piece of several."};
+}
+
+std::vector<ReadNumber> WeighingOf(const catalog::Part& part, const std::string& field) {
+  const double grams = 1e3 * NumberOf(part, field.c_str());
+  const double step_g = ScaleFor(grams);
+  const double share = step_g / std::sqrt(12.0 * kWeighings) / grams;
+  return {{field, std::hypot(share, kScaleGain),
+           std::to_string(kWeighings) + " weighings on a scale with steps of " + Grams(step_g)}};
 }
 
 }  // namespace plenum::api

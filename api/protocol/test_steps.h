@@ -22,6 +22,10 @@ struct ReadNumber {
 std::vector<ReadNumber> ReadByHand(std::string_view protocol, const catalog::Part& part,
                                    const TestSensor& sensor);
 
+// The mass of a part, `field` mass_kg or mass_kg_per_m, which a scale tells.
+std::vector<std::string> WeighingSteps(const catalog::Part& part, const std::string& field);
+std::vector<ReadNumber> WeighingOf(const catalog::Part& part, const std::string& field);
+
 }  // namespace plenum::api
 
 #endif  // PLENUM_API_PROTOCOL_TEST_STEPS_H_

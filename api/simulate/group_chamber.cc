@@ -124,4 +124,26 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum 
   return chamber;
 }
 
+void ReadLowPressure(Reader& group, const model::Ambient& ambient, bool double_acting,
+                     model::Chamber& chamber) {
+  constexpr const char* kField = "low_pressure_kpa_gauge";
+  const auto kpa = group.OptionalNumber(kField, {DeepestKpaGauge(ambient), 0});
+  if (!kpa || !(*kpa < 0.0)) return;
+  if (chamber.evacuated)
+    return group.Fail(kField,
+                      "is for actuators under pressure: one with an operating pressure below "
+                      "ambient rests at ambient");
+  if (double_acting)
+    return group.Fail(kField, "is not for double-acting cylinders, whose sides rest in turn");
+  chamber.low_pressure_pa = PaFromKpaGauge(*kpa, ambient);
+  const double left_m3 = model::Volume(chamber, chamber.low_pressure_pa);
+  if (left_m3 <= 0.0)
+    group.Fail(kField, "is " + Decimal(*kpa) +
+                           ", where the actuator would have no volume left: its volume goes on "
+                           "below ambient as it does above it, and comes to " +
+                           Decimal(Rounded(MlFromM3(left_m3))) +
+                           " mL there; a pressure_volume table that reaches below 0 says how it "
+                           "goes on");
+}
+
 }  // namespace plenum::api

@@ -29,6 +29,11 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient,
                            std::optional<model::Chamber>* rod_side = nullptr,
                            double operating_max_kpa = kRigGaugeMaxKpa);
 
+// "low_pressure_kpa_gauge" of an actuator under pressure, where it rests below ambient; 0: it does
+// not. Fails for an evacuated one, for both sides of a cylinder, and where no volume is left.
+void ReadLowPressure(Reader& group, const model::Ambient& ambient, bool double_acting,
+                     model::Chamber& chamber);
+
 }  // namespace plenum::api
 
 #endif  // PLENUM_API_SIMULATE_GROUP_CHAMBER_H_

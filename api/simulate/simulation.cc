@@ -48,6 +48,24 @@ Initial ReadInitial(Reader& request, const model::Ambient& ambient, Side side) {
   return {PaFromKpaGauge(gauge, ambient, side), temperature_k.value_or(0.0)};
 }
 
+// Where the actuator rests below ambient, and what it empties into.
+void ReadLow(Reader& reader, const model::Ambient& ambient, model::GroupRig& group) {
+  ReadLowPressure(reader, ambient, false, group.chamber);
+  const bool low = group.chamber.low_pressure_pa > 0.0;
+  group.close_at_low = reader.Bool("close_at_low_pressure", false);
+  if (group.close_at_low && !low)
+    reader.Fail("close_at_low_pressure", "needs a low_pressure_kpa_gauge below 0");
+  const auto kpa =
+      reader.OptionalNumber("exhaust_pressure_kpa_gauge", {DeepestKpaGauge(ambient), 0});
+  if (low && !kpa)
+    reader.Fail("exhaust_pressure_kpa_gauge", "is required by low_pressure_kpa_gauge");
+  if (!kpa || *kpa == 0.0) return;
+  if (!low)
+    return reader.Fail("exhaust_pressure_kpa_gauge",
+                       "is a vacuum for actuators with a low_pressure_kpa_gauge below 0");
+  group.chamber.exhaust_pressure_pa = PaFromKpaGauge(*kpa, ambient);
+}
+
 model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simulation& simulation,
                           const std::vector<catalog::Part>& parts,
                           const std::optional<Schedule>& shared,
@@ -58,6 +76,7 @@ model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simul
   group.name = ReadName(reader, index, names);
   group.count = reader.Integer("count", 1, kCountMax, 1);
   group.chamber = ReadChamber(reader, simulation.rig.ambient, Vacuum::kAllowed);
+  ReadLow(reader, simulation.rig.ambient, group);
   Line line = ReadLine(reader, parts);
   group.chamber.dead_volume_m3 = line.bore_volume_m3;
   group.fill = std::move(line.fill);
@@ -75,6 +94,10 @@ model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simul
   group.close_at_operating = reader.Bool("close_at_operating_pressure", false);
   group.effects = ReadEffects(reader, shared_effects);
   group.effects.insert(group.effects.end(), shared_effects.begin(), shared_effects.end());
+  if (group.chamber.low_pressure_pa > 0.0 && !group.effects.empty())
+    reader.Fail("effects",
+                "are those of actuators that stay above ambient, and this one has a "
+                "low_pressure_kpa_gauge");
   if (group.chamber.evacuated && !group.effects.empty())
     reader.Fail("effects", "are those of actuators under pressure, not of evacuated ones");
   if (index > 0 && group.chamber.evacuated != simulation.rig.groups.front().chamber.evacuated)

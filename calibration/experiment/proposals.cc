@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calibration/noise/phases.h"
+#include "calibration/values/crossing.h"
 
 namespace plenum::calibration {
 namespace {
@@ -50,7 +51,8 @@ double MedianSpacing(const Run& run) {
 
 // The pressure that a measured source has on the whole.
 double SourcePressure(const Run& run) {
-  if (run.source_pressure_pa > run.ambient.pressure_pa) return run.source_pressure_pa;
+  if (run.source_pressure_pa > run.ambient.pressure_pa || Evacuates(run))
+    return run.source_pressure_pa;
   double sum = 0.0, count = 0.0;
   for (const double pa : run.channels.source_pressure_pa) {
     if (!std::isfinite(pa)) continue;
@@ -132,9 +134,13 @@ class Strokes {
 
   void Propose(std::vector<Proposal>& proposals) {
     const double end_pa = std::min(run_.source_pressure_pa, bench_.highest_pa);
+    const double operating_pa = run_.chamber.operating_pressure_pa;
+    const double reached_pa = Reached(end_pa, ambient_pa_);
+    // Of what shrinks the operating pressure is the deepest, of what swells the highest.
+    const bool below = model::Shrinks(run_.chamber);
     const double full_pa =
-        std::min(run_.chamber.operating_pressure_pa, Reached(end_pa, ambient_pa_));
-    if (!(full_pa > ambient_pa_)) return;
+        below ? std::max(operating_pa, reached_pa) : std::min(operating_pa, reached_pa);
+    if (!(below ? full_pa < ambient_pa_ : full_pa > ambient_pa_)) return;
     const double half_pa = 0.5 * (full_pa + ambient_pa_);
     const double rise_s = Time(ValveState::kInflate, ambient_pa_, full_pa);
     const double half_s = Time(ValveState::kInflate, ambient_pa_, half_pa);
@@ -229,7 +235,7 @@ std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std:
   if (!(bench.spacing_s > 0.0)) return proposals;
   const double spacing_s = bench.spacing_s / rate;
   const bool gives =
-      bench.pattern.chamber.expansion_ratio > 1.0 || !bench.pattern.chamber.volume_curve.empty();
+      bench.pattern.chamber.expansion_ratio != 1.0 || !bench.pattern.chamber.volume_curve.empty();
   // An imposed volume that is held is a blocked one, and a free one there is not.
   const bool imposed = std::exchange(bench.pattern.volume_imposed, false);
   std::set<double> sources_pa;

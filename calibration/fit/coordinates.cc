@@ -115,7 +115,7 @@ Search SearchByUnit(std::string_view effect, const model::ParameterSpec& spec) {
 
 Search SearchOf(const model::EffectSpec& effect, const model::ParameterSpec& spec) {
   for (const Search& search : Searches())
-    if (search.effect == effect.id && search.parameter == spec.name) return search;
+    if (search.effect == WithoutChamber(effect).id && search.parameter == spec.name) return search;
   return SearchByUnit(effect.id, spec);
 }
 
@@ -290,9 +290,8 @@ bool Coordinate::AtEnd(double u) const {
 
 TypicalSizes SizesOf(const Dataset& dataset) {
   TypicalSizes sizes;
-  double conductance = kInfinity, operating_volume_m3 = 0.0;
+  double conductance = kInfinity, operating_volume_m3 = 0.0, samples = 0.0, sampled_s = 0.0;
   sizes.duration_s = 0.0;
-  double samples = 0.0, sampled_s = 0.0;
   for (const Run& run : dataset.runs) {
     sizes.duration_s = std::max(sizes.duration_s, run.t_s.back() - StartOf(run));
     sampled_s += run.t_s.back() - run.t_s.front();
@@ -301,9 +300,10 @@ TypicalSizes SizesOf(const Dataset& dataset) {
       if (!piece.tube)
         conductance = std::min({conductance, piece.fill.sonic_conductance_m3_per_s_pa,
                                 piece.exhaust.sonic_conductance_m3_per_s_pa});
-    sizes.gauge_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
+    sizes.gauge_pa = model::Span(run.chamber);
     sizes.volume_m3 = run.chamber.rest_volume_m3;
-    operating_volume_m3 = model::Volume(run.chamber, run.chamber.operating_pressure_pa);
+    operating_volume_m3 =
+        std::max(sizes.volume_m3, model::Volume(run.chamber, run.chamber.operating_pressure_pa));
   }
   sizes.interval_s = sampled_s / samples;
   if (std::isfinite(conductance)) {
@@ -339,10 +339,10 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
   for (std::size_t k = 0; k < kDeclaredCount; ++k) {
     const auto number = static_cast<Declared>(k);
     const double uncertainty = dataset.relative_uncertainty[k];
-    if (!(uncertainty > 0.0 || freed[k])) continue;
     for (const std::size_t specimen : SpecimensWith(dataset, runs, number))
-      coordinates.push_back(FactorCoordinate({.declared = number, .specimen = specimen},
-                                             uncertainty, freed[k], FactorRange(dataset, number)));
+      if (const bool free = freed.Holds(k, specimen); free || uncertainty > 0.0)
+        coordinates.push_back(FactorCoordinate({.declared = number, .specimen = specimen},
+                                               uncertainty, free, FactorRange(dataset, number)));
   }
   const ModelState declared = forward.Declared();
   for (const std::size_t i : runs) {
@@ -377,7 +377,7 @@ std::vector<Coordinate> TemperatureCoordinates(const ForwardModel& forward,
   for (const std::size_t i : runs) {
     const Run& run = forward.dataset().runs[i];
     const double gauge_pa = declared.initial_pressure_pa[i] - run.ambient.pressure_pa;
-    const double span_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
+    const double span_pa = model::Span(run.chamber);
     const bool stroked = InitialIsRead(run) && std::abs(gauge_pa) > kStroked * span_pa;
     if (run.initial_temperature_k || !stroked) continue;
     Coordinate coordinate;

@@ -215,6 +215,7 @@ std::vector<model::FlowElement> PairsOf(const Run& run) {
 // Whether the data have the run, and no other of its specimen.
 static bool IsAloneOfItsPiece(const FitData& data, std::size_t run) {
   const std::vector<Run>& runs = data.forward->dataset().runs;
+  if (data.forward->dataset().several) return false;  // each run is of all
   std::size_t others = 0;
   for (const std::size_t fitted : data.runs)
     if (fitted != run && runs[fitted].specimen == runs[run].specimen) ++others;

@@ -20,6 +20,11 @@ struct FitData {
   bool clocks = false;  // the runs' clocks may be off by a part of a sample
 };
 
+// Several gauges of one recording count once.
+inline bool IsOneRecording(const FitData& data) {
+  return RecordingsOf(data.forward->dataset(), data.runs) == 1u;
+}
+
 struct FitOptions {
   double noise_share = 1e-2;         // integration error allowed, as a share of the noise
   double tolerance_loosest = 1e-5;   // and of the operating pressure

@@ -7,8 +7,8 @@
 // fill its reservoir —, and what a learned term leaves to each run: the phase of what swings, and
 // how late each stroke comes (model/effects/learned/learned.h). Where a tube's bore moves, its pair
 // (C, b) and its volume move with it (model/flow/tube.h). A factor on C or b acts on the declared
-// pairs, not on those that follow from a tube's size; b stays in [0, kCriticalRatioMax] and ε at 1
-// or above.
+// pairs, not on those that follow from a tube's size; b stays in [0, kCriticalRatioMax] and ε in
+// ExpansionRange.
 #ifndef PLENUM_CALIBRATION_FIT_FORWARD_H_
 #define PLENUM_CALIBRATION_FIT_FORWARD_H_
 
@@ -68,15 +68,12 @@ class ForwardModel {
                      std::span<const Parameter> parameters, const PredictOptions& options) const;
 
  private:
-  model::Source SourceOf(std::size_t run, const ModelState& state) const;
-
   const Dataset* dataset_;
   std::vector<DrivingRecords> driving_;  // by run
 };
 
-// Adds the derivatives to numbers that move a table, which the simulator does not give: a pump's
-// delivery, and the factor on an actuator's volumes. One-sided differences, as falls of the
-// delivery may be at their bound of 0 (measured.cc).
+// Adds the derivative to the factor on an actuator's table of volumes, which the simulator does not
+// give: a one-sided difference (measured.cc).
 void AddTableSlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
                     std::span<const Parameter> parameters, const PredictOptions& options,
                     Prediction& prediction);

@@ -16,7 +16,6 @@ using Kind = MeasuredNumber::Kind;
 constexpr double kSpan = 3.0;  // e-folds either way, of conductances and volumes
 constexpr double kCriticalRatioMax = 0.95;
 constexpr double kMostDelivery = 20.0;  // times the largest one declared
-constexpr double kDeliveryStep = 1e-2;  // of that, of a difference
 constexpr double kVolumeStep = 1e-3;    // of the factor on an actuator's volumes
 constexpr double kDifferenceTolerance = 1e-7;
 constexpr double kAtBound = 1e-6;  // of the range that was searched
@@ -179,25 +178,16 @@ void WidenByRoom(const Dataset& dataset, std::vector<MeasuredEstimate>& estimate
   }
 }
 
-// The state a step of difference further along a number that moves a table of the run's rig; none
-// where it moves none.
-static std::optional<std::pair<ModelState, double>> MovedTable(const Run& run,
-                                                               const Parameter& parameter,
-                                                               const ModelState& state) {
-  const std::vector<std::size_t>& delivery = run.measured.delivery;
-  const bool delivers = parameter.kind == Parameter::Kind::kMeasured &&
-                        std::count(delivery.begin(), delivery.end(), parameter.number) > 0;
-  const bool swells = parameter.kind == Parameter::Kind::kDeclared &&
-                      parameter.declared == Declared::kRestVolume &&
-                      Concerns(parameter, run, state) && !run.chamber.volume_curve.empty();
-  if (!delivers && !swells) return std::nullopt;
-  std::pair<ModelState, double> moved = {state, kVolumeStep};
-  if (delivers) {
-    moved.second = kDeliveryStep * run.compressor.free_air_m3_per_s.y().front();
-    moved.first.measured[parameter.number] += moved.second;
-  } else {
-    NumberOf(moved.first, parameter) += moved.second;
-  }
+// The state a step of difference further along the factor on the run's table of volumes; none where
+// it moves none.
+static std::optional<ModelState> MovedTable(const Run& run, const Parameter& parameter,
+                                            const ModelState& state) {
+  const bool swells =
+      parameter.kind == Parameter::Kind::kDeclared && parameter.declared == Declared::kRestVolume &&
+      Concerns(parameter, run, state) && !ChamberOf(run, parameter.specimen).volume_curve.empty();
+  if (!swells) return std::nullopt;
+  ModelState moved = state;
+  NumberOf(moved, parameter) += kVolumeStep;
   return moved;
 }
 
@@ -212,8 +202,8 @@ void AddTableSlopes(const ForwardModel& forward, std::size_t run, const ModelSta
     const auto moved = MovedTable(forward.dataset().runs[run], parameters[j], state);
     if (!moved) continue;
     if (!at) at = forward.Predict(run, state, {}, tight);
-    const Prediction there = forward.Predict(run, moved->first, {}, tight);
-    prediction.derivatives[j] = Slope(at->reading, there.reading, moved->second);
+    const Prediction there = forward.Predict(run, *moved, {}, tight);
+    prediction.derivatives[j] = Slope(at->reading, there.reading, kVolumeStep);
   }
 }
 

@@ -102,9 +102,7 @@ double CommonSigma(const std::vector<Noise>& noises) {
   return weight > 0.0 ? std::sqrt(sum / weight) : 0.0;
 }
 
-double LeastNoise(const Run& run) {
-  return kLeastNoise * (run.chamber.operating_pressure_pa - run.ambient.pressure_pa);
-}
+double LeastNoise(const Run& run) { return kLeastNoise * model::Span(run.chamber); }
 
 void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
   const double common_pa = CommonSigma(noises);

@@ -107,12 +107,16 @@ bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** 
 Prediction RunCost::Predict(const double* u, std::span<const Parameter> parameters) const {
   PredictOptions options = options_;
   double& tolerance = options.relative_tolerance;
-  if (!parameters.empty())
+  if (!parameters.empty() && !strict_)
     tolerance = std::max(tolerance, std::min(LooserOf(start_) * tolerance, kLoosest));
-  Prediction prediction =
-      data_.forward->Predict(run_, StateAt(start_, coordinates_, u), parameters, options);
+  const ModelState state = StateAt(start_, coordinates_, u);
+  Prediction prediction = data_.forward->Predict(run_, state, parameters, options);
   if (prediction.stiff) options_.stiff = true;
-  return prediction;
+  const bool spent = prediction.status == model::SimulateStatus::kTooManySteps;
+  if (!spent || !(tolerance > options_.relative_tolerance)) return prediction;
+  // A small volume between pump and hose holds the steps down where they are rough.
+  strict_ = true;
+  return data_.forward->Predict(run_, state, parameters, options_);
 }
 
 // Empty where the run cannot be simulated.

@@ -78,7 +78,8 @@ class RunCost : public ceres::CostFunction {
   const StepsLeft* steps_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
-  double scale_;  // of the residuals
+  mutable bool strict_ = false;  // derivatives as exact as the readings
+  double scale_;                 // of the residuals
   // At the last point tried, and at the last with derivatives; empty where the run failed.
   mutable Known<std::vector<double>> residuals_;
   mutable Known<Eigen::MatrixXd> root_;

@@ -50,7 +50,7 @@ double RangeOf(const std::vector<double>& values) {
 // Of a sensor that is right for the rig: a volume that all but stands still is not read finer.
 double FullScale(const Run& run, std::vector<double> Channels::*channel, double range) {
   if (channel != &Channels::volume_m3) return range;
-  return std::max(range, run.chamber.rest_volume_m3 * (run.chamber.expansion_ratio - 1.0));
+  return std::max(range, run.chamber.rest_volume_m3 * std::abs(run.chamber.expansion_ratio - 1.0));
 }
 
 // A signal's share of Δχ²: rᵀr, Jᵀr, JᵀJ. Signals add.

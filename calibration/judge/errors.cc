@@ -146,7 +146,7 @@ Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state) {
 
 Fit AlignedFit(const Bench& bench, std::size_t run, const ModelState& state) {
   FitData data = bench.data;
-  data.clocks = data.clocks || data.runs.size() == 1u;
+  data.clocks = data.clocks || IsOneRecording(data);
   return AlignedFit(data, state, run, bench.tight);
 }
 

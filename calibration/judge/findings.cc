@@ -1,15 +1,18 @@
 #include "calibration/judge/findings.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "calibration/fit/profile.h"
 #include "calibration/judge/evidence.h"
+#include "calibration/judge/verdict.h"
 #include "calibration/noise/phases.h"
 #include "calibration/values/parallel.h"
 #include "calibration/values/specimens.h"
@@ -18,7 +21,7 @@
 namespace plenum::calibration {
 namespace {
 
-constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2, kInstantsTold = 6;
+constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2;
 constexpr std::string_view kNumber = "number:";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
@@ -176,9 +179,26 @@ void AddCandidates(const Bench& bench, const SearchResult& search, double memory
     if (candidate) diagnosis.candidates.push_back(std::move(*candidate));
 }
 
+static void AddRival(const Contender& named, const model::EffectSpec& term, Diagnosis& diagnosis) {
+  static constexpr std::pair<std::string_view, const char*> kWords[] = {
+      {"learned_leak", "gas that comes or goes in another way"},
+      {"learned_conductance", "a line that conducts in another way"},
+      {"learned_volume", "a volume that grows in another way"},
+      {"learned_supply", "a source that swings"},
+      {"learned_valve", "strokes that come late by a time of their own"}};
+  std::string what = term.law == "drift"   ? "a sensor that drifts"
+                     : term.law == "swing" ? "a sensor that swings"
+                                           : "a sensor that is off by its pressure";
+  for (const auto& [id, words] : kWords)
+    if (term.id == id) what = words;
+  diagnosis.warnings.push_back(what + " would do as well as " + Joined(IdsOf(named)) +
+                               ", with no fewer numbers: a term that has no name (" +
+                               TitleOf(term) + ")");
+}
+
 void AddReasons(const SearchResult& search, double memory,
                 const std::vector<const Contender*>& named, const std::string& doubt,
-                Diagnosis& diagnosis) {
+                const model::EffectSpec* rival, Diagnosis& diagnosis) {
   double bic = kNever;
   std::vector<std::vector<std::string>> titles;
   for (const Contender* one : named) {
@@ -187,6 +207,7 @@ void AddReasons(const SearchResult& search, double memory,
   }
   const Contender& chosen = search.contenders[search.chosen];
   if (!doubt.empty()) diagnosis.warnings.push_back(Joined(IdsOf(chosen)) + " " + doubt);
+  if (rival && IsNamed(diagnosis.verdict)) AddRival(chosen, *rival, diagnosis);
   const EffectSet& first = named.front()->effects;
   for (Candidate& candidate : diagnosis.candidates) {
     const double gain = bic - candidate.bic;
@@ -247,76 +268,6 @@ void AddSeries(const Bench& bench, Diagnosis& diagnosis) {
   });
 }
 
-// "command 2 of r1 was fitted to be at 0.312 s": of those that no record has.
-static std::string InstantsInWords(const Bench& bench, const ModelState& state) {
-  std::string words;
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < state.moved_s.size(); ++i) {
-    const Run& run = bench.dataset.runs[i];
-    for (std::size_t k = 0; k < state.moved_s[i].size(); ++k) {
-      if (InstantUncertainty(run, k) != kUnknown || ++found > kInstantsTold) continue;
-      char text[64];
-      std::snprintf(text, sizeof text, " at %.4g s", run.valve[k].time_s + state.moved_s[i][k]);
-      words += (words.empty() ? "command " : ", command ") + std::to_string(k + 1) + " of " +
-               run.id + text;
-    }
-  }
-  if (found > kInstantsTold) words += " and " + std::to_string(found - kInstantsTold) + " more";
-  return words;
-}
-
-// "r5 is of c, of which no fit saw a run": empty of other runs.
-static std::string MeansInWords(const Bench& bench, std::size_t run) {
-  std::string numbers;
-  for (const Declared number : UntoldNumbers(bench.dataset, bench.data.runs, run))
-    (numbers += numbers.empty() ? "" : " and ") += Name(number);
-  if (numbers.empty()) return "";
-  const Run& held_out = bench.dataset.runs[run];
-  return held_out.id + " is" + OfSpecimenInWords(bench.dataset.specimens[held_out.specimen]) +
-         ", of which no fit saw a run: it has the mean " + numbers + " of the other specimens";
-}
-
-void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
-  std::size_t outliers = 0, clipped = 0, staircases = 0;
-  for (const ObservedRun& run : bench.observed) {
-    outliers += run.noise.outliers.size();
-    clipped += run.noise.clipped.size();
-    staircases += run.noise.staircase;
-  }
-  std::vector<std::string>& warnings = diagnosis.warnings;
-  if (outliers > 0) warnings.push_back(std::to_string(outliers) + " wild readings were left out");
-  if (clipped > 0)
-    warnings.push_back(std::to_string(clipped) +
-                       " readings at an end of the sensor's range were left out");
-  if (staircases > 0)
-    warnings.push_back("the readings' steps are coarser than their noise in " +
-                       std::to_string(staircases) + " runs");
-  for (std::size_t run = 0; run < bench.original.size(); ++run)
-    if (IsCopy(bench, run))
-      warnings.push_back("the runs " + bench.dataset.runs[bench.original[run]].id + " and " +
-                         bench.dataset.runs[run].id + " have the same readings: they count once");
-  for (const std::size_t run : bench.held_out)
-    if (const std::string numbers = MeansInWords(bench, run); !numbers.empty())
-      warnings.push_back(numbers);
-  if (const std::string instants = InstantsInWords(bench, diagnosis.models.after.state);
-      !instants.empty())
-    warnings.push_back("instants that are not known were found in the readings: " + instants);
-  if (bench.data.clocks)
-    warnings.push_back(
-        "the clocks of readings and valve are off by a part of a sample; each run's was fitted");
-  for (const FittedEffect& effect : diagnosis.effects) {
-    if (effect.effect.spec->id == "dead_volume")
-      warnings.push_back(
-          "dead_volume differs from a larger rest_volume only by the declared uncertainties");
-  }
-}
-
-// Whether the tests of the residual that are shown all pass.
-static bool PassesTests(const ResidualReport& residual) {
-  return residual.tested && residual.white && residual.independent_of_inputs &&
-         residual.lack_of_fit <= residual.lack_of_fit_limit;
-}
-
 // "source_pressure is 13 % less than declared".
 static std::string InWords(const WrongNumber& wrong) {
   char text[64];
@@ -342,16 +293,16 @@ static std::string Named(const Contender& chosen, const Diagnosis& diagnosis) {
 }
 
 static std::string UnexplainedSentence(const Contender& chosen, const std::string& either,
-                                       const Diagnosis& diagnosis) {
+                                       const std::string& open, const Diagnosis& diagnosis) {
   if (!diagnosis.tied.empty())
-    return "The data cannot tell which is missing: " + either +
-           "; and structure is left that no known effect accounts for.";
+    return "The data cannot tell which is missing: " + either + "; and " + open + ".";
   if (!diagnosis.effects.empty() || !diagnosis.numbers.empty())
-    return Named(chosen, diagnosis) + ", but structure is left that no known effect accounts for.";
+    return Named(chosen, diagnosis) + ", but " + open + ".";
   const bool withdrawn = std::any_of(diagnosis.stability.begin(), diagnosis.stability.end(),
                                      [](const StabilityChange& change) { return !change.holds; });
-  return withdrawn ? "No explanation holds when the readings are changed a little."
-                   : "Structure is left that no known effect accounts for.";
+  if (withdrawn) return "No explanation holds when the readings are changed a little.";
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(open.front()))) +
+         open.substr(1) + ".";
 }
 
 // What is to be said of runs that no fit saw where they are not predicted better.
@@ -365,7 +316,8 @@ static std::string NoBetter(const Diagnosis& diagnosis) {
              : "";
 }
 
-std::string Sentence(const Bench& bench, const SearchResult& search, const Diagnosis& diagnosis) {
+std::string Sentence(const Bench& bench, const SearchResult& search, const std::string& open,
+                     const Diagnosis& diagnosis) {
   std::string either;
   for (const auto& ids : diagnosis.tied) either += (either.empty() ? "" : " or ") + Joined(ids);
   const Contender& chosen = search.contenders[search.chosen];
@@ -375,15 +327,16 @@ std::string Sentence(const Bench& bench, const SearchResult& search, const Diagn
              "left.";
     case Verdict::kExplained:
       return Named(chosen, diagnosis) +
-             (PassesTests(diagnosis.residual) ? "; with it, only noise is left."
-                                              : "; with it, little is left beside the noise.") +
+             (diagnosis.residual.tested && PassesTests(diagnosis.residual)
+                  ? "; with it, only noise is left."
+                  : "; with it, little is left beside the noise.") +
              NoBetter(diagnosis);
     case Verdict::kTie:
       return "The data cannot tell which is missing: " + either +
              (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".") +
              NoBetter(diagnosis);
     case Verdict::kUnexplained:
-      return UnexplainedSentence(chosen, either, diagnosis) + NoBetter(diagnosis);
+      return UnexplainedSentence(chosen, either, open, diagnosis) + NoBetter(diagnosis);
     case Verdict::kUndecided:
       break;
   }

@@ -1,5 +1,5 @@
 // What a diagnosis tells of a finished search: numbers with their intervals, the sets that were
-// compared, the runs as models have them, warnings, the verdict in a sentence.
+// compared, the runs as models have them, the verdict in a sentence.
 #ifndef PLENUM_CALIBRATION_JUDGE_FINDINGS_H_
 #define PLENUM_CALIBRATION_JUDGE_FINDINGS_H_
 
@@ -25,21 +25,21 @@ using HoldoutByFit = std::vector<std::pair<const Fit*, std::optional<double>>>;
 // The best sets and the base model, by BIC of readings that are worth 1/memory of their number: by
 // what the choice among them was made. Fewer, and without errors on unseen runs that are not
 // `known`, when time is over. Sets with less than the named set's BIC carry the reason; `doubt` is
-// that of the chosen set where the base model is what stands.
+// that of the chosen set where the base model is what stands. `rival` is a learned term that would
+// do as well as what is named, which is then said, or null.
 void AddCandidates(const Bench& bench, const SearchResult& search, double memory,
                    const HoldoutByFit& known, Diagnosis& diagnosis);
 void AddReasons(const SearchResult& search, double memory,
                 const std::vector<const Contender*>& named, const std::string& doubt,
-                Diagnosis& diagnosis);
+                const model::EffectSpec* rival, Diagnosis& diagnosis);
 
 // Every run as measured and as the models of the diagnosis have it.
 void AddSeries(const Bench& bench, Diagnosis& diagnosis);
 
-// On readings and clocks, and on what the found effects are hard to tell from.
-void AddWarnings(const Bench& bench, Diagnosis& diagnosis);
-
-// The verdict for people; `effects` and `tied` must stand.
-std::string Sentence(const Bench& bench, const SearchResult& search, const Diagnosis& diagnosis);
+// The verdict for people; `effects` and `tied` must stand. `open` is what keeps the shown model
+// from being the explanation (verdict.h).
+std::string Sentence(const Bench& bench, const SearchResult& search, const std::string& open,
+                     const Diagnosis& diagnosis);
 
 }  // namespace plenum::calibration
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "calibration/fit/run_worth.h"
 #include "calibration/values/specimens.h"
@@ -24,6 +25,47 @@ std::string Joined(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
   return text;
+}
+
+bool IsRestVolume(const Parameter& parameter) {
+  return parameter.kind == Parameter::Kind::kDeclared &&
+         parameter.declared == Declared::kRestVolume;
+}
+
+// The measured numbers of a group that are as well known as the rest volume; none where the group
+// is of other numbers, too.
+std::vector<std::size_t> KnownByVolume(const Dataset& dataset, const Fit& fit,
+                                       const std::vector<std::size_t>& group) {
+  using Kind = MeasuredNumber::Kind;
+  bool volume = false;
+  std::vector<std::size_t> measured;
+  for (const std::size_t j : group) {
+    const Parameter& parameter = fit.coordinates[j].parameter;
+    if (IsRestVolume(parameter))
+      volume = true;
+    else if (parameter.kind != Parameter::Kind::kMeasured)
+      return {};
+    else if (const Kind kind = dataset.measured[parameter.number].kind;
+             kind == Kind::kConductance || kind == Kind::kDelivery)
+      measured.push_back(j);
+  }
+  return volume ? measured : std::vector<std::size_t>();
+}
+
+std::string Percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
+  return text;
+}
+
+std::string OfVolume(const Identifiability& found) {
+  const bool one = found.by_volume.size() == 1u;
+  const bool stated = found.volume_uncertainty > 0.0 && std::isfinite(found.volume_uncertainty);
+  const std::string share = Percent(stated ? found.volume_uncertainty : 0.01);
+  return Joined(found.by_volume) + (one ? " is" : " are") +
+         " known only as well as the volume of the bottle" +
+         (stated ? ", which is declared to " + share : "") + ": where the volume is " + share +
+         " wrong, so " + (one ? "is it." : "are they.");
 }
 
 }  // namespace
@@ -64,14 +106,17 @@ std::optional<Identifiability> Identify(const FitData& data, const Fit& fit,
                                         const FitOptions& options) {
   std::optional<Eigen::MatrixXd> curvature = Curvature(data, fit, options);
   if (!curvature) return {};
+  const Dataset& dataset = data.forward->dataset();
   const auto size = static_cast<std::size_t>(curvature->rows());
   std::vector<std::string> names;
   for (std::size_t j = 0; j < size; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     if (fit.coordinates[j].prior) (*curvature)(at, at) -= 1.0;
-    names.push_back(NameOf(fit.coordinates[j].parameter, fit.state, data.forward->dataset()));
+    names.push_back(NameOf(fit.coordinates[j].parameter, fit.state, dataset));
   }
   Identifiability found;
+  found.volume_uncertainty =
+      dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)];
   std::vector<std::size_t> heard;  // not silent
   for (std::size_t j = 0; j < size; ++j) {
     const double alone = (*curvature)(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
@@ -99,13 +144,21 @@ std::optional<Identifiability> Identify(const FitData& data, const Fit& fit,
     return std::sqrt(eigen.vectors.row(a).cwiseAbs2().dot(spread.transpose())) / root[a];
   };
   for (Eigen::Index v = 0; v < count && eigen.values[v] < kAliasEigenvalue; ++v) {
-    std::vector<std::string> group;
+    std::vector<std::size_t> group;
     for (Eigen::Index a = 0; a < count; ++a) {
       const std::size_t j = heard[static_cast<std::size_t>(a)];
       if (std::abs(eigen.vectors(a, v)) >= kTakesPart && deviation(a) > Unfixed(fit.coordinates[j]))
-        group.push_back(names[j]);
+        group.push_back(j);
     }
-    if (group.size() > 1) found.aliases.push_back(std::move(group));
+    if (group.size() < 2) continue;
+    const std::vector<std::size_t> by_volume = KnownByVolume(dataset, fit, group);
+    for (const std::size_t j : by_volume)
+      if (std::find(found.by_volume.begin(), found.by_volume.end(), names[j]) ==
+          found.by_volume.end())
+        found.by_volume.push_back(names[j]);
+    if (!by_volume.empty()) continue;
+    std::vector<std::string>& alias = found.aliases.emplace_back();
+    for (const std::size_t j : group) alias.push_back(names[j]);
   }
   return found;
 }
@@ -115,6 +168,7 @@ std::vector<std::string> Sentences(const Identifiability& found) {
   if (!found.silent.empty())
     sentences.push_back("The data say nothing about " + Joined(found.silent) +
                         ": what is shown is what was declared or assumed.");
+  if (!found.by_volume.empty()) sentences.push_back(OfVolume(found));
   for (auto group = found.aliases.begin(); group != found.aliases.end(); ++group) {
     // Several directions may have the same names.
     if (std::find(found.aliases.begin(), group, *group) != group) continue;

@@ -9,8 +9,10 @@
 //   aliased  if it holds together only: another number does the same to the readings.
 // Aliases are grouped by the eigenvectors of H scaled to a unit diagonal whose eigenvalues are
 // below kAliasEigenvalue. A prior may still fix each number of a group, but then it is the declared
-// value that speaks, not the data. Source: Raue et al., Bioinformatics 25 (2009) 1923 (structural
-// and practical identifiability), to second order in place of profiles.
+// value that speaks, not the data. A measured conductance, or what a pump delivers, that is aliased
+// with the rest volume alone is told by itself: it is known as well as that volume is. Source: Raue
+// et al., Bioinformatics 25 (2009) 1923 (structural and practical identifiability), to second order
+// in place of profiles.
 #ifndef PLENUM_CALIBRATION_JUDGE_IDENTIFIABILITY_H_
 #define PLENUM_CALIBRATION_JUDGE_IDENTIFIABILITY_H_
 
@@ -27,6 +29,8 @@ inline constexpr double kAliasEigenvalue = 1e-3;
 struct Identifiability {
   std::vector<std::string> silent;
   std::vector<std::vector<std::string>> aliases;
+  std::vector<std::string> by_volume;  // measured numbers, as well known as the rest volume
+  double volume_uncertainty = 0.0;     // as declared, relative
 };
 
 // "sonic_conductance", "creep.fraction", "initial pressure of r1".

@@ -45,17 +45,22 @@ std::vector<StatedRun> StatedRuns(const Bench& bench) {
 
 StatedModel Stated(const Bench& bench, const ModelState& state) {
   const std::size_t runs = bench.dataset.runs.size();
-  StatedModel stated{state, {}, {}};
-  for (const Run& run : bench.dataset.runs) stated.run_factor.push_back(FactorsOf(run, state));
+  StatedModel stated{state, {}, {}, bench.dataset.several};
   for (std::size_t k = 0; k < state.specimen_factor.size(); ++k)
     if (const auto number = static_cast<Declared>(k); OfEachSpecimen(state, number))
       stated.state.factor[k] = MeanFactor(bench.dataset, bench.data.runs, state, number);
+  const auto factors_of = [&](std::size_t run, const ModelState& of) {
+    Factors factors = FactorsOf(bench.dataset.runs[run], of);
+    if (stated.several) std::copy_n(stated.state.factor.begin(), kOfActuator, factors.begin());
+    return factors;
+  };
+  for (std::size_t run = 0; run < runs; ++run) stated.run_factor.push_back(factors_of(run, state));
   stated.fitted_alone.resize(runs);
   for (const std::size_t run : bench.held_out) {
     const Fit aligned = AlignedFit(bench, run, state);
     if (!aligned.Usable()) continue;
     CopyRun(aligned.state, run, stated.state);
-    stated.run_factor[run] = FactorsOf(bench.dataset.runs[run], aligned.state);
+    stated.run_factor[run] = factors_of(run, aligned.state);
     for (const Coordinate& coordinate : aligned.coordinates)
       stated.fitted_alone[run].push_back(NameOf(coordinate.parameter, state, bench.dataset));
   }
@@ -77,7 +82,7 @@ ErrorReport ErrorOf(const Bench& bench, const StatedModel& model) {
   const model::Chamber& chamber = bench.dataset.runs.front().chamber;
   report.rms_pa = fitted.Rms();
   report.peak_pa = fitted.peak;
-  report.rms_share = report.rms_pa / (chamber.operating_pressure_pa - chamber.ambient_pressure_pa);
+  report.rms_share = report.rms_pa / model::Span(chamber);
   if (held_out.count > 0) report.holdout_rms_pa = held_out.Rms();
   return report;
 }

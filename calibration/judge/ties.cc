@@ -45,8 +45,7 @@ std::optional<Experiment> ExperimentFor(const Bench& bench,
 std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
                                        const Contender& chosen, double memory, double reach) {
   const double worth = static_cast<double>(chosen.fit.rows) / memory;
-  const bool alone =
-      (bench.data.runs.size() == 1u && bench.held_out.empty()) || worth < kFewReadings;
+  const bool alone = (IsOneRecording(bench.data) && bench.held_out.empty()) || worth < kFewReadings;
   const double evidence = alone ? EvidenceOf(bench, chosen.fit, memory) : 0.0;
   const auto apart = [&](const Fit& other) {
     const bool worse = BicWith(other, memory) > BicWith(chosen.fit, memory) + reach;

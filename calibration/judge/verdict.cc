@@ -33,10 +33,13 @@ bool HoldsOut(const Leftover& leftover) {
 
 }  // namespace
 
-bool IsNoise(const Leftover& leftover) {
-  const ResidualReport& residual = leftover.residual;
+bool PassesTests(const ResidualReport& residual) {
   return residual.white && residual.independent_of_inputs &&
-         residual.lack_of_fit <= residual.lack_of_fit_limit && leftover.learnable_bic <= kAccept;
+         residual.lack_of_fit <= residual.lack_of_fit_limit;
+}
+
+bool IsNoise(const Leftover& leftover) {
+  return PassesTests(leftover.residual) && leftover.learnable_bic <= kAccept;
 }
 
 bool PredictsWorse(const Leftover& before, const Leftover& after) {
@@ -75,7 +78,7 @@ std::string DoubtOf(const Evidence& evidence) {
   if (!evidence.accepted) return "";
   if (PredictsWorse(evidence.before, evidence.after))
     return "predicts runs that no fit saw worse than the model without it";
-  if (evidence.imitated) return "fits no better than one learned term in its place";
+  if (evidence.imitated) return "is outdone by one learned term in its place";
   if (!evidence.after.priors_hold)
     return "fits only with declared numbers that are beyond their uncertainties";
   if (UnexplainedFraction(evidence.before, evidence.after) > kEstablished)
@@ -83,11 +86,30 @@ std::string DoubtOf(const Evidence& evidence) {
   return "does no better beside a learned term than the term alone";
 }
 
+std::string WhatIsOpen(const Evidence& evidence) {
+  const Leftover& after = evidence.after;
+  const std::string structure = "structure is left that no known effect accounts for";
+  if (!PassesTests(after.residual)) return structure;
+  if (after.learnable_bic > kAccept)
+    return "a term that has no name would take up part of what looks like noise";
+  if (!evidence.accepted) return structure;
+  if (!HoldsOut(after)) return "runs that no fit saw are off by more than their noise";
+  if (!after.priors_hold) return "declared numbers are beyond their uncertainties";
+  if (after.rough_noise) return "the noise is not known well enough to say that only noise is left";
+  return structure;
+}
+
 bool IsTieBesideStructure(const Evidence& evidence) {
   return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
          evidence.after.priors_hold && !evidence.imitated &&
          !PredictsWorse(evidence.before, evidence.after) &&
          UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+}
+
+Verdict JudgeBesideStructure(const Evidence& evidence) {
+  const Verdict verdict = Judge(evidence);
+  return verdict == Verdict::kUnexplained && IsTieBesideStructure(evidence) ? Verdict::kTie
+                                                                            : verdict;
 }
 
 }  // namespace plenum::calibration

@@ -26,6 +26,9 @@ struct Leftover {
   bool priors_hold = true;         // the declared numbers are where their uncertainties let them be
 };
 
+// White and independent of the inputs, no more of it than the readings show.
+bool PassesTests(const ResidualReport& residual);
+
 // Nothing but noise: white and independent of the inputs, no more of it than the readings show, and
 // nothing in it that a learned term could take up.
 bool IsNoise(const Leftover& leftover);
@@ -60,12 +63,24 @@ struct Evidence {
 // are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
+// Whether it says what is missing.
+inline bool IsNamed(Verdict verdict) {
+  return verdict == Verdict::kExplained || verdict == Verdict::kTie;
+}
+
 // Why the set that fits best is not taken for the explanation; empty of the base model.
 std::string DoubtOf(const Evidence& evidence);
+
+// What keeps the model from leaving noise alone, in words that follow "but"; of the base model,
+// too. Where all tests of the residual pass it is not structure that they see.
+std::string WhatIsOpen(const Evidence& evidence);
 
 // A tie claims less than an explanation: it stands where each of several sets leaves at most
 // kEstablished of what the base model left, though that is structure, and holds out.
 bool IsTieBesideStructure(const Evidence& evidence);
+
+// The verdict, or that tie where it is none of an explanation.
+Verdict JudgeBesideStructure(const Evidence& evidence);
 
 }  // namespace plenum::calibration
 

@@ -7,8 +7,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "calibration/fit/tones.h"
+#include "calibration/learn/term_bounds.h"
 #include "calibration/values/effect_sets.h"
 #include "calibration/values/parallel.h"
 #include "calibration/values/thresholds.h"
@@ -57,14 +59,17 @@ const std::vector<Family>& Families() {
   return kFamilies;
 }
 
+std::ptrdiff_t FreeNumbers(const Fit& fit) {
+  return std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                       [](const Coordinate& coordinate) { return !coordinate.prior; });
+}
+
 // n·ln((χ² + χ²_prior)/n) + k·ln n. A model that lacks something has a χ² far above n; the priors
 // then weigh in the selection what they weigh in its fit.
 double Score(const Fit& fit) {
   const double n = static_cast<double>(fit.rows);
-  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
-                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
   return n * std::log((fit.chi2_data + fit.chi2_prior) / n) +
-         static_cast<double>(free) * std::log(n);
+         static_cast<double>(FreeNumbers(fit)) * std::log(n);
 }
 
 bool Holds(const ModelState& state, std::string_view id) {
@@ -290,7 +295,8 @@ std::vector<Unseen> JudgeUnseen(const FitData& data, const ModelState& base,
   return unseen;
 }
 
-// Candidates by BIC, the finalists among them judged on runs left out, as the model `without`.
+// Candidates by BIC, the finalists whose numbers were found judged on runs left out, as the model
+// `without`.
 const Attempt* Choose(const FitData& data, const Fit& established, const ModelState& base,
                       std::vector<Attempt>& attempts, const FitOptions& options, Unseen& without) {
   std::stable_sort(attempts.begin(), attempts.end(),
@@ -305,6 +311,8 @@ const Attempt* Choose(const FitData& data, const Fit& established, const ModelSt
     each.threads = ThreadsWithin(k, attempts.size(), options.threads);
     Polish(data, each, attempts[k]);
   });
+  std::erase_if(attempts,
+                [&](const Attempt& attempt) { return !IsFound(data, attempt.fit, options); });
   if (attempts.empty()) return nullptr;
   if (data.runs.size() < 2) return &attempts.front();
   const std::vector<Unseen> unseen = JudgeUnseen(data, base, attempts, options);
@@ -344,29 +352,6 @@ std::vector<Attempt> FitFamilies(const FitData& data, const ModelState& base,
   return attempts;
 }
 
-// A curve of the sensor is its offset and its gain, too: that it fits as well is no doubt of them.
-bool OfOnePlace(const std::vector<model::Effect>& effects, const model::Effect& term) {
-  return term.spec->place == model::EffectPlace::kSensor &&
-         std::all_of(effects.begin(), effects.end(), [&](const model::Effect& effect) {
-           return effect.spec->place == term.spec->place;
-         });
-}
-
-FittedEffect LearnedOf(const FitData& data, const Fit& fit, const FitOptions& options) {
-  FittedEffect learned{fit.state.effects.back(), {}};
-  for (const double number : learned.effect.parameters)
-    learned.parameters.push_back({number, number, number, false});
-  const std::vector<Estimate> estimates = Intervals(fit, Covariance(data, fit, options));
-  for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
-    const Parameter& parameter = fit.coordinates[j].parameter;
-    if (parameter.kind == Parameter::Kind::kEffect &&
-        parameter.effect + 1 == fit.state.effects.size()) {
-      learned.parameters[parameter.number] = estimates[j];
-    }
-  }
-  return learned;
-}
-
 }  // namespace
 
 double PressureRms(const FitData& data, const ModelState& state,
@@ -391,16 +376,26 @@ double UnseenRms(const FitData& data, const ModelState& state, const std::vector
   return PressureRms(data, aligned, runs, options);
 }
 
-bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options) {
+Rival RivalOf(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options) {
   const FitOptions quick = Quick(options);
-  const double hopeful = Score(set) + kHopeful * std::max(0.0, Score(base) - Score(set));
-  std::vector<Attempt> attempts =
-      FitFamilies(data, Unstretched(data, base), base.state, quick, hopeful);
-  return std::any_of(attempts.begin(), attempts.end(), [&](Attempt& attempt) {
+  // Its ratios that no reading narrows cost nothing, and count as none (fit.h).
+  const double each = std::log(static_cast<double>(set.rows)), cost = Penalty(set, 1.0);
+  const double of_set = Score(set) - each * static_cast<double>(FreeNumbers(set)) + cost;
+  const double hopeful = of_set + kHopeful * std::max(0.0, Score(base) - of_set);
+  auto attempts = FitFamilies(data, Unstretched(data, base), base.state, quick, hopeful);
+  Rival rival;
+  double least = kAccept;
+  for (Attempt& attempt : attempts) {
     if (attempt.score < hopeful) Polish(data, quick, attempt);
-    const bool holds_set = OfOnePlace(set.state.effects, attempt.fit.state.effects.back());
-    return attempt.score < Score(set) + (holds_set ? -kAccept : kAccept);
-  });
+    const model::Effect& term = attempt.fit.state.effects.back();
+    const double apart = IsWithin(attempt.fit) ? attempt.score - of_set : kNone;
+    const bool holds_set = OfOnePlace(set.state.effects, term);
+    const bool fewer = each * (static_cast<double>(FreeNumbers(attempt.fit)) + 0.5) < cost;
+    const bool simpler = !holds_set && (fewer || set.state.effects.size() > 2u);
+    if (apart < (simpler ? kAccept : -kAccept)) return {.instead = true};
+    if (apart < least && !holds_set) least = apart, rival.as_good = term.spec;
+  }
+  return rival;
 }
 
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,

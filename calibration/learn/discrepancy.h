@@ -10,7 +10,9 @@
 // from the others, and the family with the least
 //   Σ n·ln max(χ²/n, 1) + k·ln n   over the runs left out, n readings each,
 // is the answer, if it beats the model without a term there; of those within kGain the one that
-// fits better. With one run only, the BIC decides.
+// fits better. With one run only, the BIC decides. A term one of whose numbers ended at an end of
+// what is searched, or may be anything there, is not offered: it follows the readings and tells
+// nothing.
 // A run left out has its initial pressure, its clock, the phase of what swings and the times of
 // late strokes from its own readings: k counts the last two, which the term brings. The error that
 // is reported of held-out runs is got in the same way. What swings or sticks at random is predicted
@@ -50,11 +52,19 @@ inline bool HoldsAll(const Discrepancy& discrepancy, const EffectSet& effects) {
          });
 }
 
-// Whether one learned term beside the base model fits the runs as well as the set of effects does:
-// within kAccept of its BIC (thresholds.h). Several effects that do no better than one term of
-// unknown cause may be names for what is not in the list. A curve of the sensor holds all effects
-// of the sensor and must do better than they by as much.
-bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options);
+// What one learned term beside the base model does in the place of a set of effects.
+//
+// Several effects may be names for what is not in the list: they are not named where a term of
+// fewer numbers, or any in the place of three effects, comes within kAccept of their score
+// (thresholds.h), or where a term is better by as much. A term with as many numbers that does as
+// well as two effects is no reason against them: whatever goes on slowly in the chamber can be said
+// of a sensor that drifts. It is said beside them. A curve of the sensor holds all effects of the
+// sensor and must be better than they by kAccept, whatever its numbers.
+struct Rival {
+  bool instead = false;                        // of the set
+  const model::EffectSpec* as_good = nullptr;  // a term within kAccept of it, the best of them
+};
+Rival RivalOf(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options);
 
 // RMS of the pressure residual over all usable readings of the runs; NaN where a run fails.
 double PressureRms(const FitData& data, const ModelState& state,

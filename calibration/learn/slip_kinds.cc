@@ -134,6 +134,7 @@ std::span<const SlipKind> SlipKinds() {
       {"volume_l", "the rest volume is in litres, not ml, or all times are in ms, not s", InLitres},
       {"conductance_per_min", "the line's sonic conductance is of a minute, not of a second",
        OfAMinute},
+      {kAllMs, "all times, of readings and commands, are in ms, not s", Times(1e-3, 1e-3)},
   };
   return kKinds;
 }

@@ -24,6 +24,7 @@ struct SlipKind {
   bool another_unit = false;  // of the readings
 };
 std::span<const SlipKind> SlipKinds();
+inline constexpr const char* kAllMs = "all_ms";
 
 // Of two runs that have each other's.
 struct ExchangeKind {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "calibration/learn/slip_kinds.h"
@@ -120,6 +121,9 @@ std::vector<SuspectedSlip> OfSingleRuns(const Dataset& astray, const std::vector
   std::vector<std::size_t> most;
   double least = std::numeric_limits<double>::infinity();
   for (const SlipKind& kind : SlipKinds()) {
+    // Where times are ms, next to nothing moves, and readings in a larger unit hardly move either:
+    // OfTimes() looks at that where no run is astray.
+    if (std::string_view(kind.name) == kAllMs) continue;
     Dataset undone = astray;
     for (Run& run : undone.runs) kind.undo(run);
     const std::vector<Mismatch> after = MismatchesUndone(undone, cancelled);
@@ -156,6 +160,30 @@ std::vector<SuspectedSlip> OfPairs(const Dataset& astray, const std::vector<Mism
     }
   }
   return slips;
+}
+
+double MeanInterval(const Run& run) {
+  return (run.t_s.back() - run.t_s.front()) /
+         std::max(1.0, static_cast<double>(run.t_s.size()) - 1.0);
+}
+
+// All times in ms, in every run.
+std::vector<SuspectedSlip> OfTimes(const Dataset& record, const std::vector<Mismatch>& before,
+                                   const std::function<bool()>& cancelled) {
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (!(before[i].E() > kAstrayInTime) || !std::isfinite(before[i].apart) ||
+        MeanInterval(record.runs[i]) < kSlowS)
+      return {};
+  const auto kinds = SlipKinds();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [](const SlipKind& one) {
+    return std::string_view(one.name) == kAllMs;
+  });
+  Dataset undone = record;
+  for (Run& run : undone.runs) kind->undo(run);
+  const std::vector<Mismatch> after = MismatchesUndone(undone, cancelled);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (!(after[i].LeftOf(before[i], false) < kUndone)) return {};
+  return {OfAll(*kind)};
 }
 
 // A slip, and what undoes it in a record.
@@ -233,7 +261,7 @@ std::vector<SuspectedSlip> SuspectedSlips(const Dataset& dataset,
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i].E() > kAstray && std::isfinite(all[i].apart))
       astray.runs.push_back(dataset.runs[i]), before.push_back(all[i]);
-  if (before.empty()) return {};
+  if (before.empty()) return OfTimes(dataset, all, cancelled);
   std::vector<SuspectedSlip> slips = OfSingleRuns(astray, before, dataset, all, cancelled);
   return slips.empty() ? OfPairs(astray, before, cancelled) : slips;
 }

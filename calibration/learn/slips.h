@@ -5,6 +5,8 @@
 // the readings, both gauge: 0 where they agree, about 1 where they have nothing in common. A slip
 // is suspected where E is above kAstray and undoing the slip leaves less than kUndone of it, in all
 // such runs or in some.
+// Times in ms are looked for below kAstray, too, where readings are kSlowS and more apart: strokes
+// that end between two readings by the model leave most of the record at rest, and E small.
 // From what fits: where a search has come to an end and structure is left, the base model is fitted
 // to the record with a slip undone in all runs, or with two runs exchanged. A slip is suspected
 // where that leaves less than kUndone of the variance above the noise that the base model leaves of
@@ -24,6 +26,7 @@ namespace plenum::calibration {
 
 inline constexpr double kAstray = 0.05;
 inline constexpr double kUndone = 0.1;
+inline constexpr double kAstrayInTime = 1e-3, kSlowS = 0.5;
 
 // Of the slips of single runs the likeliest, and runs whose readings seem to be exchanged. A few
 // simulations of each run.

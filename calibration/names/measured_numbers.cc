@@ -122,6 +122,7 @@ std::string WhyNotKept(const Dataset& dataset, const MeasuredEstimate& estimate)
     return "";  // the end of the table, where the pump may well deliver nothing
   if (estimate.at_bound) return "ended at an end of what was searched: the readings do not fix it";
   if (estimate.deviation <= kMostUncertain * estimate.value) return "";
+  if (!(estimate.deviation < estimate.value)) return "is not told by this test";
   return "is known to " + Percent(estimate.deviation / estimate.value) +
          " only (one standard deviation), must be " + Percent(kMostUncertain) + " or less";
 }

@@ -5,6 +5,7 @@
 #include "calibration/judge/findings.h"
 #include "calibration/judge/stated.h"
 #include "calibration/learn/slip_kinds.h"
+#include "calibration/names/record_warnings.h"
 
 namespace plenum::calibration {
 

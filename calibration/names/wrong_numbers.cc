@@ -20,6 +20,16 @@ std::vector<std::string> IdsInsteadOfNumbers(std::span<const Contender> contende
   return ids;
 }
 
+// Whether a number of 0 is the effect's absence. Of others, which shape what an effect does, 0 is
+// an end as any.
+bool IsStrength(const Parameter& parameter, const ModelState& state) {
+  const std::string_view name =
+      state.effects[parameter.effect].spec->parameters[parameter.number].name;
+  for (const std::string_view shape : {"critical_ratio", "damping_ratio", "start_share"})
+    if (name == shape) return false;
+  return true;
+}
+
 std::string Tenths(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
@@ -34,11 +44,13 @@ std::vector<WrongNumber> WrongNumbersOf(const Dataset& dataset, const Contender&
   for (const model::EffectSpec* spec : named.effects) {
     const std::optional<Declared> number = FreedBy(*spec);
     if (!number) continue;
+    const std::optional<std::size_t> chamber = ChamberFreedBy(*spec);
     const auto at = static_cast<std::size_t>(*number);
     const double stated = dataset.relative_uncertainty[at];
     for (const Coordinate& coordinate : named.fit.coordinates) {
       const Parameter& parameter = coordinate.parameter;
       if (parameter.kind != Parameter::Kind::kDeclared || parameter.declared != *number) continue;
+      if (chamber && parameter.specimen != *chamber) continue;
       WrongNumber& one = wrong.emplace_back();
       one.number = *number;
       one.factor = NumberOf(named.fit.state, parameter);
@@ -60,7 +72,8 @@ std::vector<std::string> FarNumbers(const Dataset& dataset, const Fit& fit) {
     const Parameter::Kind kind = coordinate.parameter.kind;
     if (kind != Parameter::Kind::kDeclared && kind != Parameter::Kind::kEffect) continue;
     const double u = fit.u[static_cast<Eigen::Index>(j)];
-    const bool absent = kind == Parameter::Kind::kEffect && coordinate.Number(u) == 0.0;
+    const bool absent = kind == Parameter::Kind::kEffect && coordinate.Number(u) == 0.0 &&
+                        IsStrength(coordinate.parameter, fit.state);
     const std::string name = NameOf(coordinate.parameter, fit.state, dataset);
     if (coordinate.AtEnd(u) && !absent)
       sentences.push_back(name +

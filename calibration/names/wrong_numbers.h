@@ -22,8 +22,8 @@ std::vector<WrongNumber> WrongNumbersOf(const Dataset& dataset, const Contender&
                                         std::span<const Contender> contenders, double memory);
 
 // One sentence for each declared number, and each of an effect, that ended at an end of what was
-// searched, an effect's absence apart, or, with a prior, more than kFarSigmas of its standard
-// deviations off.
+// searched, a strength of 0 apart, by which an effect is absent, or, with a prior, more than
+// kFarSigmas of its standard deviations off.
 inline constexpr double kFarSigmas = 3.0;
 std::vector<std::string> FarNumbers(const Dataset& dataset, const Fit& fit);
 

@@ -42,8 +42,10 @@ const char* Name(Phase phase) {
 
 std::vector<PhaseSpan> PhasesOf(const Run& run) {
   if (run.t_s.empty()) return {};
-  const double operating = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
-  const bool pressurised = StartPressure(run) - run.ambient.pressure_pa > kPressurised * operating;
+  const double ambient_pa = run.ambient.pressure_pa;
+  const bool pressurised =
+      (StartPressure(run) - ambient_pa) / (run.chamber.operating_pressure_pa - ambient_pa) >
+      kPressurised;
   std::vector<PhaseSpan> spans;
   int inflations = 0;
   model::ValveState state = model::ValveState::kHold;

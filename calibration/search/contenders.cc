@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "calibration/fit/start_scan.h"
 #include "calibration/values/parallel.h"
@@ -57,8 +58,9 @@ bool MayBeNamed(const Contender& contender) {
   const Fit& fit = contender.fit;
   for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
-    const bool freed = coordinate.parameter.kind == Parameter::Kind::kDeclared &&
-                       fit.state.freed[static_cast<std::size_t>(coordinate.parameter.declared)];
+    const Parameter& of = coordinate.parameter;
+    const bool freed = of.kind == Parameter::Kind::kDeclared &&
+                       fit.state.freed.Holds(static_cast<std::size_t>(of.declared), of.specimen);
     const double u = fit.u[j];
     const double number = coordinate.Number(u);
     if ((freed && coordinate.AtEnd(u)) || number < coordinate.least || number > coordinate.most)
@@ -79,10 +81,14 @@ ModelState StateOf(const Contender& contender, const EffectSet& rest) {
     return std::find(rest.begin(), rest.end(), spec) != rest.end();
   };
   std::erase_if(state.effects, [&](const model::Effect& effect) { return !holds(effect.spec); });
-  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
-    if (!state.freed[k] || holds(&Freeing(static_cast<Declared>(k)))) continue;
-    state.freed[k] = false;
-    SetFactor(static_cast<Declared>(k), 1.0, state);
+  const EffectSet freed = SpecsOf(std::exchange(state.freed, {}));
+  for (const model::EffectSpec* spec : freed) {
+    if (holds(spec)) Free(*spec, state.freed);
+    if (holds(spec)) continue;
+    const Declared number = *FreedBy(*spec);
+    const std::optional<std::size_t> chamber = ChamberFreedBy(*spec);
+    if (!chamber) SetFactor(number, 1.0, state);
+    if (chamber) NumberOf(state, {.declared = number, .specimen = *chamber}) = 1.0;
   }
   return state;
 }
@@ -183,9 +189,9 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
     return;
   }
   const ModelState beside = Unstretched(data, from.fit);
-  if (const std::optional<Declared> number = FreedBy(*added)) {
+  if (FreedBy(*added)) {
     jobs.push_back({set, beside, from.fit.bic});
-    jobs.back().start.freed[static_cast<std::size_t>(*number)] = true;
+    Free(*added, jobs.back().start.freed);
     return;
   }
   for (const model::Effect& start : StartsBeside(from, added)) {

@@ -117,7 +117,7 @@ class Search {
   // Where runs confirm each other the clocks must do better than effects by kClock. In a single run
   // a clock that is off and a stroke that is late are one, and the effect claims more: there it
   // must do better by as much.
-  double EffectAhead() const { return sets_.data.runs.size() == 1u ? 2.0 * kClock : 0.0; }
+  double EffectAhead() const { return IsOneRecording(sets_.data) ? 2.0 * kClock : 0.0; }
 
   bool MaySeekClocks() const { return may_be_off_ && !sets_.data.clocks && !sets_.Cancelled(); }
 

@@ -14,6 +14,11 @@ bool Evacuates(const Run& run) {
   return run.supply == Supply::kRegulated && run.source_pressure_pa < run.ambient.pressure_pa;
 }
 
+bool RecordsNode(const Run& run) {
+  return run.supply == Supply::kFlow &&
+         !(run.channels.source_pressure_pa.empty() && run.channels.inlet_pressure_pa.empty());
+}
+
 LinePiece AsCrossed(LinePiece piece, const Run& run) {
   if (Evacuates(run)) std::swap(piece.fill, piece.exhaust);
   return piece;

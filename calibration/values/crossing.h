@@ -13,6 +13,10 @@ namespace plenum::calibration {
 // The source is below the ambient pressure.
 bool Evacuates(const Run& run);
 
+// Whether the pressure between a flow controller and the line is recorded, or one within the line:
+// these alone show what the line conducts while the controller lets in what it is told.
+bool RecordsNode(const Run& run);
+
 // The piece with the pair that gas crosses into the chamber as `fill`.
 LinePiece AsCrossed(LinePiece piece, const Run& run);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace plenum::calibration {
 namespace {
@@ -37,20 +38,28 @@ bool HasUnmeasured(const Run& run, MeasuredPlace::Of fill, MeasuredPlace::Of exh
 
 bool Has(const Run& run, Declared number) {
   using Of = MeasuredPlace::Of;
+  const auto is = [](bool tube) {
+    return [tube](const LinePiece& piece) { return piece.tube.has_value() == tube; };
+  };
   const auto any = [&](bool tube) {
-    return std::any_of(run.line.begin(), run.line.end(),
-                       [&](const LinePiece& piece) { return piece.tube.has_value() == tube; });
+    return std::any_of(run.line.begin(), run.line.end(), is(tube)) ||
+           run.several.HasPiece(is(tube));
   };
   switch (number) {
     case Declared::kExpansionRatio:
     case Declared::kOperatingPressure:
-      return !run.blocked && run.chamber.expansion_ratio > 1.0;
+      if (run.blocked) return false;
+      return run.chamber.expansion_ratio != 1.0 ||
+             std::any_of(run.several.all.begin(), run.several.all.end(),
+                         [](const auto& one) { return one.chamber.expansion_ratio != 1.0; });
     case Declared::kSourcePressure:
       return run.supply != Supply::kNone && run.supply != Supply::kFlow;
     case Declared::kSonicConductance:
-      return HasUnmeasured(run, Of::kFillConductance, Of::kExhaustConductance);
+      return HasUnmeasured(run, Of::kFillConductance, Of::kExhaustConductance) ||
+             run.several.HasPiece(is(false));
     case Declared::kCriticalRatio:
-      return HasUnmeasured(run, Of::kFillRatio, Of::kExhaustRatio);
+      return HasUnmeasured(run, Of::kFillRatio, Of::kExhaustRatio) ||
+             run.several.HasPiece(is(false));
     case Declared::kTubeInnerDiameter:
       return any(true);
     case Declared::kReservoirVolume:
@@ -68,6 +77,15 @@ bool Has(const Run& run, Declared number) {
   if (run.volume_imposed) return false;
   return std::none_of(run.measured.places.begin(), run.measured.places.end(),
                       [](const MeasuredPlace& place) { return place.of == Of::kVolume; });
+}
+
+bool Has(const Run& run, Declared number, std::size_t piece) {
+  if (number != Declared::kExpansionRatio || run.several.empty()) return Has(run, number);
+  return !run.blocked && ChamberOf(run, piece).expansion_ratio != 1.0;
+}
+
+const model::Chamber& ChamberOf(const Run& run, std::size_t specimen) {
+  return run.several.empty() ? run.chamber : run.several.piece(specimen).chamber;
 }
 
 bool RecordsMore(const Channels& channels) {
@@ -106,24 +124,56 @@ double FirstReading(const Run& run) {
   return count == 0 ? run.ambient.pressure_pa : sum_pa / count;
 }
 
+std::size_t RecordingsOf(const Dataset& dataset, const std::vector<std::size_t>& runs) {
+  std::set<std::string_view> shots;
+  for (const std::size_t i : runs) {
+    const Run& run = dataset.runs[i];
+    shots.insert(run.several.shot.empty() ? run.id : run.several.shot);
+  }
+  return shots.size();
+}
+
+double LowestPressure(const Run& run) {
+  double lowest_pa =
+      std::min(run.ambient.pressure_pa, run.initial_pressure_pa.value_or(run.ambient.pressure_pa));
+  if (run.supply == Supply::kRegulated) lowest_pa = std::min(lowest_pa, run.source_pressure_pa);
+  if (run.exhaust_pressure_pa > 0.0) lowest_pa = std::min(lowest_pa, run.exhaust_pressure_pa);
+  return lowest_pa;
+}
+
+std::pair<double, double> ExpansionRange(const Run& run, const model::Chamber& chamber) {
+  if (!model::Shrinks(chamber)) return {1.0, std::numeric_limits<double>::infinity()};
+  const double deepest_pa = std::min(LowestPressure(run), chamber.operating_pressure_pa);
+  const double share = (deepest_pa - run.ambient.pressure_pa) /
+                       (chamber.operating_pressure_pa - run.ambient.pressure_pa);
+  return {std::max(kLeastVolume, 1.0 - (1.0 - kLeastVolume) / share), 1.0};
+}
+
 std::pair<double, double> FactorRange(const Dataset& dataset, Declared number) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double ratio = kInfinity, expansion = 1.0, vacuum = kInfinity, lowest_pa = kInfinity,
-         highest_pa = 0.0;
+  double ratio = kInfinity, vacuum = kInfinity, lowest_pa = kInfinity, highest_pa = 0.0;
+  std::pair<double, double> expansion = {0.0, kInfinity};
   for (const Run& run : dataset.runs) {
     lowest_pa = std::min(lowest_pa, run.ambient.pressure_pa);
     highest_pa = std::max(highest_pa, run.ambient.pressure_pa);
     if (run.source_pressure_pa < run.ambient.pressure_pa)
       vacuum = std::min(
           vacuum, run.ambient.pressure_pa / (run.ambient.pressure_pa - run.source_pressure_pa));
-    if (!run.blocked) expansion = std::max(expansion, run.chamber.expansion_ratio);
+    for (std::size_t i = 0; i < std::max(run.several.all.size(), std::size_t{1}); ++i) {
+      if (run.blocked) break;
+      const model::Chamber& chamber =
+          run.several.empty() ? run.chamber : run.several.all[i].chamber;
+      const auto [least, most] = ExpansionRange(run, chamber);
+      expansion = {std::max(expansion.first, least / chamber.expansion_ratio),
+                   std::min(expansion.second, most / chamber.expansion_ratio)};
+    }
     for (const LinePiece& piece : run.line)
       for (const double b : {piece.fill.critical_ratio, piece.exhaust.critical_ratio})
         if (!piece.tube && b > 0.0) ratio = std::min(ratio, b);
   }
   switch (number) {
     case Declared::kExpansionRatio:
-      return {1.0 / expansion, kInfinity};
+      return {std::min(1.0, expansion.first), std::max(1.0, expansion.second)};
     case Declared::kCriticalRatio:
       return {0.0, std::max(1.0, kCriticalRatioMax / ratio)};
     case Declared::kSourcePressure:

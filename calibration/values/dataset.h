@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/values/line_piece.h"
+#include "calibration/values/several.h"
 #include "model/simulate/simulate.h"
 
 namespace plenum::calibration {
@@ -46,16 +48,6 @@ inline constexpr double kSensorZeroPa = 1e5;
 std::string_view Name(Declared number);
 
 inline constexpr double kUnknown = std::numeric_limits<double>::infinity();
-
-// One element of the line, in the order from the source; a tube's pairs follow from its size.
-struct LinePiece {
-  model::FlowElement fill, exhaust;
-  struct Tube {
-    double inner_diameter_m = 0.0;
-    double length_m = 0.0;
-  };
-  std::optional<Tube> tube;
-};
 
 // kFlow: a flow controller, as a compressor that delivers the same at any pressure, without a
 // reservoir.
@@ -117,14 +109,17 @@ struct Recorded {
   // The volume channel drives the model, whatever the pressure: the run is `blocked`, too. It is
   // taken as exact: a factor on it and one on all conductances are the same to the pressure.
   bool volume_imposed = false;
-  std::size_t specimen = 0;  // the piece of the actuator on the bench, by Dataset::specimens
+  // The piece of the actuator on the bench, by Dataset::specimens; of several chambers the one with
+  // the gauge.
+  std::size_t specimen = 0;
 };
 
 struct Run : Recorded {
   std::string id;
   // The rig as declared for this run.
   model::Ambient ambient;
-  model::Chamber chamber;
+  model::Chamber chamber;  // of several the one with the gauge
+  Several several;
   std::vector<LinePiece> line;
   model::Gas gas = model::Gas::kAir;
   Supply supply = Supply::kNone;
@@ -144,6 +139,11 @@ struct Run : Recorded {
 
 // Whether the run's readings depend on that number, beside those that it measures.
 bool Has(const Run& run, Declared number);
+// The same of one of the actuator's own numbers, of one of several chambers.
+bool Has(const Run& run, Declared number, std::size_t piece);
+
+// The chamber of a specimen that the run is of: of several that one.
+const model::Chamber& ChamberOf(const Run& run, std::size_t specimen);
 
 // Whether the source is a regulator whose recorded setpoint drives it.
 bool FollowsSetpoint(const Run& run);
@@ -165,15 +165,28 @@ struct Dataset {
   std::array<double, kDeclaredCount> relative_uncertainty{};
   std::vector<std::string> holdout;  // ids of runs that no fit may see
   // Names of the pieces of the actuator; empty of the common piece of runs that name none. None
-  // where no run names one.
+  // where no run names one. With several chambers theirs: each run has all of them.
   std::vector<std::string> specimens;
+  bool several = false;
   std::vector<MeasuredNumber> measured;
   bool as_written = false;  // the record is as it was meant, though it looks like a slip of the pen
 };
 
-// The factors on a declared number with which all runs' rigs make sense: ε not below 1, b not above
-// kCriticalRatioMax, no source below an absolute 0, an ambient pressure that there is on land.
-// Other numbers: any.
+// The lowest absolute pressure that anything in the run as declared has.
+double LowestPressure(const Run& run);
+
+// The expansion ratios of which the run's volume makes sense: at least 1; of an actuator that
+// shrinks at most 1, and no less than what leaves kLeastVolume of the rest volume at the lowest
+// pressure.
+inline constexpr double kLeastVolume = 0.01;
+std::pair<double, double> ExpansionRange(const Run& run, const model::Chamber& chamber);
+
+// How many recordings the runs are: several gauges of one recording count once.
+std::size_t RecordingsOf(const Dataset& dataset, const std::vector<std::size_t>& runs);
+
+// The factors on a declared number with which all runs' rigs make sense: ε in ExpansionRange, b not
+// above kCriticalRatioMax, no source below an absolute 0, an ambient pressure that there is on
+// land. Other numbers: any.
 inline constexpr double kCriticalRatioMax = 0.95;
 std::pair<double, double> FactorRange(const Dataset& dataset, Declared number);
 

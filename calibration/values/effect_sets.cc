@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "calibration/values/crossing.h"
@@ -53,11 +54,33 @@ const NumberSpecs& Numbers() {
   return kSpecs;
 }
 
+// Of the actuator's own numbers, by chamber.
+using ChamberSpecs = std::array<std::array<model::EffectSpec, kChambersMax>, kOfActuator>;
+
+const ChamberSpecs& NumbersOfChambers() {
+  static const std::array<std::array<std::string, kChambersMax>, kOfActuator> kIds = [] {
+    std::array<std::array<std::string, kChambersMax>, kOfActuator> ids;
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      for (std::size_t i = 0; i < kChambersMax; ++i)
+        ids[k][i] = std::string(Numbers()[k].id) + "[" + std::to_string(i + 1) + "]";
+    return ids;
+  }();
+  static const ChamberSpecs kSpecs = [] {
+    ChamberSpecs specs;
+    for (std::size_t k = 0; k < specs.size(); ++k)
+      for (std::size_t i = 0; i < kChambersMax; ++i)
+        specs[k][i] = {kIds[k][i], {}, PlaceOf(static_cast<Declared>(k)), {}};
+    return specs;
+  }();
+  return kSpecs;
+}
+
 std::size_t Place(const model::EffectSpec* spec) {
   const auto all = model::Effects();
   if (const std::optional<Declared> number = FreedBy(*spec))
     return all.size() + static_cast<std::size_t>(*number);
-  return static_cast<std::size_t>(std::find(all.begin(), all.end(), spec) - all.begin());
+  const model::EffectSpec* known = &WithoutChamber(*spec);
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), known) - all.begin());
 }
 
 // Whether a factor on the critical ratios is one on anything: not where all are 0.
@@ -84,18 +107,53 @@ bool AnyTimeWillDo(const Run& run) {
   return true;
 }
 
+// Whether the volume is the same at any pressure: there effects on its law do nothing.
+bool HasOneVolume(const model::Chamber& chamber) {
+  return chamber.expansion_ratio == 1.0 && chamber.volume_curve.empty();
+}
+bool IsRigid(const Run& run) {
+  return run.blocked || (HasOneVolume(run.chamber) &&
+                         std::all_of(run.several.all.begin(), run.several.all.end(),
+                                     [](const auto& one) { return HasOneVolume(one.chamber); }));
+}
+
+bool ActsOnVolumeLaw(const model::EffectSpec& spec) {
+  for (const std::string_view id : {"inertia", "creep", "hysteresis", "nonlinear_compliance"})
+    if (spec.id == id) return true;
+  return false;
+}
+
+bool Opens(const Run& run) {
+  return std::any_of(run.valve.begin(), run.valve.end(), [](const model::ValveCommand& command) {
+    return command.state != model::ValveState::kHold;
+  });
+}
+
+// Whether what the line conducts shows: what a flow controller lets in passes whatever it is.
+bool ShowsConductance(const Run& run) {
+  if (run.supply != Supply::kFlow || RecordsNode(run)) return Opens(run);
+  return std::any_of(run.valve.begin(), run.valve.end(), [](const model::ValveCommand& command) {
+    return command.state == model::ValveState::kDeflate;
+  });
+}
+
+bool IsOfConductance(const model::EffectSpec& spec) {
+  for (const std::string_view id :
+       {"valve_ramp", "directional_conductance", "cracking_pressure", "exhaust_restriction",
+        "number:sonic_conductance", "number:critical_ratio"})
+    if (spec.id == id) return true;
+  return false;
+}
+
 bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
   using enum model::EffectPlace;
-  const auto opens = [](const Run& run) {
-    return std::any_of(run.valve.begin(), run.valve.end(), [](const model::ValveCommand& command) {
-      return command.state != model::ValveState::kHold;
-    });
-  };
   if (spec.id == "outgassing") return std::any_of(runs.begin(), runs.end(), WasEvacuated);
   if (spec.id == "valve_delay" && std::all_of(runs.begin(), runs.end(), AnyTimeWillDo))
     return false;
+  if (ActsOnVolumeLaw(spec) && std::all_of(runs.begin(), runs.end(), IsRigid)) return false;
   const bool fed = spec.place == kValve || spec.place == kLine || spec.place == kSupply;
-  return !fed || std::any_of(runs.begin(), runs.end(), opens);
+  return !fed ||
+         std::any_of(runs.begin(), runs.end(), IsOfConductance(spec) ? ShowsConductance : Opens);
 }
 
 }  // namespace
@@ -104,11 +162,46 @@ const model::EffectSpec& Freeing(Declared number) {
   return Numbers()[static_cast<std::size_t>(number)];
 }
 
+const model::EffectSpec& Freeing(Declared number, std::size_t chamber) {
+  return NumbersOfChambers()[static_cast<std::size_t>(number)][chamber];
+}
+
 std::optional<Declared> FreedBy(const model::EffectSpec& spec) {
+  if (!spec.id.starts_with("number:")) return {};
   const NumberSpecs& numbers = Numbers();
-  for (std::size_t k = 0; k < numbers.size(); ++k)
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
     if (&spec == &numbers[k]) return static_cast<Declared>(k);
+    for (std::size_t i = 0; k < kOfActuator && i < kChambersMax; ++i)
+      if (&spec == &NumbersOfChambers()[k][i]) return static_cast<Declared>(k);
+  }
   return {};
+}
+
+std::optional<std::size_t> ChamberFreedBy(const model::EffectSpec& spec) {
+  for (const auto& of_chambers : NumbersOfChambers())
+    for (std::size_t i = 0; i < kChambersMax; ++i)
+      if (&spec == &of_chambers[i]) return i;
+  return {};
+}
+
+void Free(const model::EffectSpec& spec, Freed& freed) {
+  const std::optional<Declared> number = FreedBy(spec);
+  if (!number) return;
+  const auto k = static_cast<std::size_t>(*number);
+  if (const std::optional<std::size_t> chamber = ChamberFreedBy(spec))
+    freed.of_chamber[k][*chamber] = true;
+  else
+    freed[k] = true;
+}
+
+EffectSet SpecsOf(const Freed& freed) {
+  EffectSet specs;
+  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
+    if (freed[k]) specs.push_back(&Numbers()[k]);
+    for (std::size_t i = 0; k < kOfActuator && i < kChambersMax; ++i)
+      if (freed.of_chamber[k][i]) specs.push_back(&NumbersOfChambers()[k][i]);
+  }
+  return specs;
 }
 
 EffectSet EffectsAlone(EffectSet set) {
@@ -148,8 +241,13 @@ bool HasPlace(const model::EffectSpec& spec, const std::vector<Run>& runs) {
 
 EffectSet NamedEffects(const std::vector<Run>& runs) {
   EffectSet named;
-  for (const model::EffectSpec* spec : model::Effects())
-    if (!IsLearned(*spec) && HasPlace(*spec, runs) && Exercised(*spec, runs)) named.push_back(spec);
+  const std::size_t chambers = runs.empty() ? 0 : runs.front().several.pieces();
+  for (const model::EffectSpec* spec : model::Effects()) {
+    if (IsLearned(*spec) || !HasPlace(*spec, runs) || !Exercised(*spec, runs)) continue;
+    if (!IsLeak(*spec) || chambers == 0) named.push_back(spec);
+    for (std::size_t i = 0; IsLeak(*spec) && i < chambers; ++i)
+      named.push_back(&InChamber(*spec, i));
+  }
   return named;
 }
 
@@ -162,8 +260,12 @@ EffectSet NumbersThatMayBeWrong(const Dataset& dataset) {
     const bool has = std::any_of(dataset.runs.begin(), dataset.runs.end(), [&](const Run& run) {
       return Has(run, number) && (number != Declared::kCriticalRatio || HasRatio(run));
     });
-    if (known && has && number != Declared::kOperatingPressure && Exercised(spec, dataset.runs))
-      numbers.push_back(&spec);
+    if (!known || !has || number == Declared::kOperatingPressure || !Exercised(spec, dataset.runs))
+      continue;
+    const bool own = dataset.several && k < kOfActuator;
+    if (!own) numbers.push_back(&spec);
+    for (std::size_t i = 0; own && i < dataset.specimens.size(); ++i)
+      if (Has(dataset.runs.front(), number, i)) numbers.push_back(&Freeing(number, i));
   }
   return numbers;
 }

@@ -8,15 +8,24 @@
 #include <vector>
 
 #include "calibration/values/dataset.h"
+#include "calibration/values/model_state.h"
+#include "calibration/values/placed_leaks.h"
 #include "model/effects/effect.h"
 
 namespace plenum::calibration {
 
 using EffectSet = std::vector<const model::EffectSpec*>;  // in the order of the registry
 
-// "number:source_pressure".
+// "number:source_pressure"; of one of several chambers "number:rest_volume[2]".
 const model::EffectSpec& Freeing(Declared number);
+const model::EffectSpec& Freeing(Declared number, std::size_t chamber);
 std::optional<Declared> FreedBy(const model::EffectSpec& spec);
+// The chamber, where it is a number of one of several.
+std::optional<std::size_t> ChamberFreedBy(const model::EffectSpec& spec);
+// Sets what the spec frees.
+void Free(const model::EffectSpec& spec, Freed& freed);
+// What is freed.
+EffectSet SpecsOf(const Freed& freed);
 EffectSet EffectsAlone(EffectSet set);
 
 // Whether the registry has `a` before `b`; numbers come after all effects.
@@ -35,7 +44,7 @@ bool IsLearned(const model::EffectSpec& spec);
 bool HasPlace(const model::EffectSpec& spec, const std::vector<Run>& runs);
 
 // The effects that have a name, of which the runs can tell: a valve that never opens tells nothing
-// of itself, of its line and of what feeds it.
+// of itself, of its line and of what feeds it. Of several chambers each may leak.
 EffectSet NamedEffects(const std::vector<Run>& runs);
 
 // The declared numbers that may be wrong and of which the runs can tell, the unknown ones apart,

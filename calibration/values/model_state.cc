@@ -39,14 +39,20 @@ bool OfEachSpecimen(const ModelState& state, Declared number) {
 }
 
 Factors FactorsOf(const Run& run, const ModelState& state) {
+  return FactorsOf(run, state, run.specimen);
+}
+
+Factors FactorsOf(const Run& run, const ModelState& state, std::size_t specimen) {
   Factors factors = state.factor;
+  if (run.several.empty()) specimen = run.specimen;
   for (std::size_t k = 0; k < state.specimen_factor.size(); ++k)
-    if (!state.specimen_factor[k].empty()) factors[k] = state.specimen_factor[k][run.specimen];
+    if (!state.specimen_factor[k].empty()) factors[k] = state.specimen_factor[k][specimen];
   return factors;
 }
 
 bool Concerns(const Parameter& parameter, const Run& run, const ModelState& state) {
-  return parameter.specimen == run.specimen || !OfEachSpecimen(state, parameter.declared);
+  return parameter.specimen == run.specimen || !run.several.empty() ||
+         !OfEachSpecimen(state, parameter.declared);
 }
 
 void SetFactor(Declared number, double factor, ModelState& state) {

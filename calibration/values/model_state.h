@@ -10,12 +10,26 @@
 #include <vector>
 
 #include "calibration/values/dataset.h"
+#include "calibration/values/placed_leaks.h"
 #include "model/effects/effect.h"
 
 namespace plenum::calibration {
 
 using Factors = std::array<double, kDeclaredCount>;  // by Declared
-using Freed = std::array<bool, kDeclaredCount>;      // by Declared
+
+// Which declared numbers a fit moves as far as the readings ask, without a prior: by Declared, of
+// all specimens; of several chambers by chamber.
+struct Freed {
+  std::array<bool, kDeclaredCount> number{};
+  std::array<std::array<bool, kChambersMax>, kOfActuator> of_chamber{};
+
+  bool& operator[](std::size_t k) { return number[k]; }
+  bool operator[](std::size_t k) const { return number[k]; }
+  bool Holds(std::size_t k, std::size_t specimen) const {
+    return number[k] || (k < kOfActuator && specimen < kChambersMax && of_chamber[k][specimen]);
+  }
+  bool operator==(const Freed&) const = default;
+};
 
 // The relative uncertainty by which a number that is declared exact counts its deviation.
 inline constexpr double kExactUncertainty = 0.01;
@@ -27,7 +41,7 @@ struct ModelState {
   // Of the actuator's own numbers a factor by specimen, in place of that in `factor`, where the
   // data set has several specimens and the number is uncertain; else empty.
   std::array<std::vector<double>, kOfActuator> specimen_factor;
-  Freed freed{};  // which of them a fit moves as far as the readings ask, without a prior
+  Freed freed{};
   std::vector<model::Effect> effects;
   std::vector<double> measured;               // SI, by Dataset::measured
   std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
@@ -70,6 +84,8 @@ bool OfEachSpecimen(const ModelState& state, Declared number);
 
 // The factors with which a run is simulated.
 Factors FactorsOf(const Run& run, const ModelState& state);
+// Of several chambers those of one.
+Factors FactorsOf(const Run& run, const ModelState& state, std::size_t specimen);
 
 // Whether a parameter on a declared number moves anything in the run.
 bool Concerns(const Parameter& parameter, const Run& run, const ModelState& state);
@@ -96,13 +112,14 @@ struct StatedModel {
   ModelState state;
   std::vector<Factors> run_factor;                     // by run
   std::vector<std::vector<std::string>> fitted_alone;  // by run: "initial pressure of r5"
+  bool several = false;  // each run has all specimens, chambers: their factors are the state's
 };
 
 // The model as the run has it.
 inline ModelState OfRun(const StatedModel& model, std::size_t run) {
   ModelState state = model.state;
   state.factor = model.run_factor[run];
-  state.specimen_factor = {};
+  if (!model.several) state.specimen_factor = {};
   return state;
 }
 

@@ -22,7 +22,8 @@ std::vector<double> ToldFactors(const Dataset& dataset, std::span<const std::siz
 
 bool OfEachSpecimen(const Dataset& dataset, Declared number) {
   const auto at = static_cast<std::size_t>(number);
-  return at < kOfActuator && dataset.specimens.size() > 1 && dataset.relative_uncertainty[at] > 0.0;
+  return at < kOfActuator && dataset.specimens.size() > 1 &&
+         (dataset.several || dataset.relative_uncertainty[at] > 0.0);
 }
 
 std::array<std::vector<double>, kOfActuator> DeclaredFactors(const Dataset& dataset) {
@@ -37,14 +38,19 @@ std::vector<std::size_t> SpecimensWith(const Dataset& dataset, std::span<const s
                                        Declared number) {
   const bool each = OfEachSpecimen(dataset, number);
   std::set<std::size_t> specimens;
-  for (const std::size_t run : runs)
-    if (Has(dataset.runs[run], number)) specimens.insert(each ? dataset.runs[run].specimen : 0);
+  for (const std::size_t index : runs) {
+    const Run& run = dataset.runs[index];
+    for (std::size_t i = 0; each && dataset.several && i < run.several.pieces(); ++i)
+      if (Has(run, number, i)) specimens.insert(i);
+    if (Has(run, number) && !(each && dataset.several)) specimens.insert(each ? run.specimen : 0);
+  }
   return {specimens.begin(), specimens.end()};
 }
 
 std::vector<Declared> UntoldNumbers(const Dataset& dataset, std::span<const std::size_t> runs,
                                     std::size_t run) {
   std::vector<Declared> untold;
+  if (dataset.several) return untold;
   for (int k = 0; k < kOfActuator; ++k) {
     const auto number = static_cast<Declared>(k);
     if (!OfEachSpecimen(dataset, number) || !Has(dataset.runs[run], number)) continue;
@@ -62,6 +68,7 @@ double MeanFactor(const Dataset& dataset, std::span<const std::size_t> runs,
 }
 
 void TakeMeans(const Dataset& dataset, std::span<const std::size_t> runs, ModelState& state) {
+  if (dataset.several) return;  // a chamber that has the number is told by each run
   for (std::size_t k = 0; k < state.specimen_factor.size(); ++k) {
     const auto number = static_cast<Declared>(k);
     if (!OfEachSpecimen(state, number)) continue;

@@ -18,7 +18,8 @@
 namespace plenum::calibration {
 
 // Whether each specimen has its own factor: a number of the actuator that is not exact, where runs
-// are of several specimens.
+// are of several specimens; of several chambers, which stand for specimens here, an exact one, too,
+// should it be found wrong.
 bool OfEachSpecimen(const Dataset& dataset, Declared number);
 
 // ModelState::specimen_factor of what is declared.

@@ -12,8 +12,10 @@ import math
 import re
 import sys
 
+import law_table
 import laws
 import pumps
+import spreads
 import tables
 from tables import is_known, number, predict_into
 
@@ -43,6 +45,8 @@ def fill_valves(rows, made):
         bore = BORE.search(row["notes"])
         for side in ("fill", "exhaust"):
             field = f"sonic_conductance_{side}_dm3_per_s_bar"
+            if "PVQ flow" in row[field + ".source"]:
+                row[field + ".uncertainty"] = f"{made['valve_bore'].law.sigma:.2g}"
             if bore and not is_known(row, field):
                 law = made["valve_bore"]
                 predict_into(row, field, law.law.predict((float(bore[1]),)), law.law.sigma,
@@ -146,6 +150,18 @@ def fill_vessels(all_rows, made):
         fill(made["steel_tank_mass"], row, "mass_kg")
 
 
+def fill_halves(rows):
+    """A lone valve is half of its pair (catalog/lone_valves.py), and as uncertain."""
+    pairs = {row["id"]: row for row in rows}
+    for row in rows:
+        pair = pairs.get(row["id"] + "-pair")
+        if row["function"] == "2/2" and pair:
+            for column in row:
+                if column.endswith(".uncertainty") and row[column.replace(
+                        ".uncertainty", ".provenance")] == "estimated":
+                    row[column] = pair[column]
+
+
 def fill_ejectors(rows):
     """Mass and body of those whose flows are all known: no law, since one row alone has them."""
     known = [row for row in rows if is_known(row, "mass_kg") and is_known(row, "body_volume_ml")]
@@ -184,9 +200,14 @@ def main():
         return shares(all_rows)
     before = copy.deepcopy(all_rows)
     made = laws.all_laws(all_rows)
+    # Before the laws, which add the errors of the numbers that they take.
+    missed = spreads.all_spreads(all_rows, made)
+    for spread in missed:
+        spread.fill(all_rows[spread.family])
     valves = [row for row in all_rows["valve"] if row["function"] != "2/2"]  # halves of pairs
     fill_valves(valves, made)
-    spreads = fill_spreads(valves)
+    ways = fill_spreads(valves)
+    fill_halves(all_rows["valve"])
     fill_fittings(all_rows["fitting"], made)
     fill_packs(all_rows["battery"], made)
     pumped = fill_pumps(all_rows["compressor"] + all_rows["vacuum_pump"], made)
@@ -194,12 +215,17 @@ def main():
     fill_ejectors(all_rows["ejector"])
     if option == "--report":
         import plots
-        return plots.report(sys.argv[2], made, spreads, pumped)
+        plots.report(sys.argv[2], made, ways, pumped)
+        return plots.report_rules(missed, spreads.keeps_default(all_rows))
     changed = [family for family in all_rows if all_rows[family] != before[family]]
+    table = law_table.text(law_table.rows(all_rows, made, ways, pumped, missed))
+    if table != law_table.read():
+        changed.append("laws.csv")
     if option == "--check":
         print("would change:", ", ".join(changed) or "nothing")
         return 1 if changed else 0
-    for family in changed:
+    law_table.write(table)
+    for family in set(changed) & set(all_rows):
         for row in all_rows[family]:
             del row["family"]
         tables.write(family, headers[family], all_rows[family])

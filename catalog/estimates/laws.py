@@ -69,6 +69,18 @@ def bore_points(kind):
                 for row in csv.DictReader(file) if row["kind"] == kind]
 
 
+def fitting_x(row):
+    return (number(row, "tube_outer_diameter_mm"), number(row, "sonic_conductance_dm3_per_s_bar"))
+
+
+def flow_of(row):
+    return (number(row, "sonic_conductance_dm3_per_s_bar"),)
+
+
+def is_mechanical(row):
+    return "electro" not in row["type"] and "piezo" not in row["type"]
+
+
 def mass_x(row):
     return (number(row, "mass_kg"),) if row.get("mass_kg") else None
 
@@ -158,6 +170,12 @@ def all_laws(tables):
               bore_points("valve"), fixed={0: 2.0}),
         Named("fitting_bore", "C of a fitting", "dm³/(s·bar)", ["bore in mm"], None,
               bore_points("fitting"), fixed={0: 2.0}),
+        Named("fitting_mass", "mass of a stainless fitting", "kg",
+              ["tube in mm", "C"], fitting_x,
+              observed(tables["fitting"], "mass_kg", fitting_x)),
+        Named("regulator_mass", "mass of a mechanical regulator", "kg", ["C"], flow_of,
+              [Point(r["id"], r["series"], flow_of(r), number(r, "mass_kg"))
+               for r in tables["regulator"] if is_known(r, "mass_kg") and is_mechanical(r)]),
         Named("pack_mass", "mass of a pack", "kg",
               ["energy in Wh", "current over capacity in 1/h", "LiFePO4"], pack_x,
               observed(packs, "mass_kg", pack_x, ["current_max_a", "capacity_ah"]), flags={2}),

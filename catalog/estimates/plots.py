@@ -69,3 +69,14 @@ def report(folder, made, spreads, pumped):
     print(f"| best isothermal efficiency of a pump | {efficiency[0]:.2f} | | "
           f"| {100 * efficiency[1]:.0f} % |")
     print(f"| flow of a pump, straight between its ends | 1 | | | {100 * line:.0f} % |")
+
+
+def report_rules(missed, kept):
+    """How far the rules miss, and where no row says it."""
+    print("\n| what | series | error |\n| --- | --- | --- |")
+    for spread in missed:
+        error = f"{100 * min(spread.sigma, 1.0):.0f} %" if spread.sigma else "keeps the default"
+        print(f"| {spread.title} | {len(spread.errors)} | {error} |")
+    print("\n| family | number | estimates that keep the default |\n| --- | --- | --- |")
+    for (family, field), count in sorted(kept.items()):
+        print(f"| {family} | `{field}` | {count} |")

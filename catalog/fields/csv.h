@@ -6,8 +6,10 @@
 // `curve` (points "kPa_gauge:L/min:A" joined by ';') and .provenance, .source, .uncertainty of
 // free_air and current. A column may be missing; an empty cell means no value. Without a provenance
 // a number counts as third_party. A number may carry a unit of its own (catalog/units/quantity.h),
-// also in a curve. A part with offers has the price of the newest (catalog/fields/price.h). What
-// WriteCsv writes is read back exactly and written again byte for byte.
+// also in a curve, and some stand as they are printed: "Cv 0.05", a body "70 x 30 x 50 mm", a curve
+// "free flow 12 L/min", a current "25C". A part with offers has the price of the newest
+// (catalog/fields/price.h). What WriteCsv writes is read back exactly and written again byte for
+// byte.
 #ifndef PLENUM_CATALOG_FIELDS_CSV_H_
 #define PLENUM_CATALOG_FIELDS_CSV_H_
 
@@ -40,8 +42,11 @@ struct CsvParts {
 using TakePart = std::function<void(Part part, int row)>;
 CsvErrors ReadCsv(std::string_view family, std::string_view text, const TakePart& take);
 // The same of rows that come from elsewhere, the header first; each with its number in the file.
+// With `complete`, required numbers that a row lacks are estimated where a law gives them
+// (catalog/fields/laws/estimate_missing.h).
 using RowSource = std::function<void(const TakeRow& take, const TakeError& fail)>;
-CsvErrors ReadRows(std::string_view family, const RowSource& rows, const TakePart& take);
+CsvErrors ReadRows(std::string_view family, const RowSource& rows, const TakePart& take,
+                   bool complete = true);
 // The same at once.
 CsvParts ReadCsv(std::string_view family, std::string_view text);
 

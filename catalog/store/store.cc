@@ -121,8 +121,11 @@ void Store::WaitForLocks(std::chrono::milliseconds patience) {
   impl_->Do([&](SqlDatabase& db) { db.WaitForLocks(patience); });
 }
 
-void Store::TryToWrite() {
-  impl_->Do([](SqlDatabase& db) { db.TryToWrite(); });
+void Store::TryToWrite(Try how) {
+  impl_->Do([how](SqlDatabase& db) {
+    if (how == Try::kWrite) return db.TryToWrite();
+    const SqlTransaction taken_back(db, Purpose::kWrite);
+  });
 }
 
 std::vector<Part> Store::List(const std::optional<std::string>& family) const {

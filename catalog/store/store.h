@@ -140,7 +140,10 @@ class Store {
   std::vector<std::string> Check() const;
 
   // Begins to write, and takes it back: throws StoreError where a write would fail at once.
-  void TryToWrite();
+  // With kLock it only takes the turn of those who write and gives it back: kBusy where another has
+  // it.
+  enum class Try { kLock, kWrite };
+  void TryToWrite(Try how = Try::kWrite);
 
  private:
   struct Impl;

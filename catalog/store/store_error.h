@@ -10,8 +10,9 @@ namespace plenum::catalog {
 enum class Access { kRead, kWrite };
 
 // kStorage: the disk is full or fails, or the file cannot be written; kBusy: another process holds
-// it for longer than ten seconds. In all cases nothing of the write was done.
-enum class StoreFault { kOther, kStorage, kBusy };
+// it for longer than ten seconds; kAway: its server cannot be reached. In all cases nothing of the
+// write was done.
+enum class StoreFault { kOther, kStorage, kBusy, kAway };
 
 // Thrown when the database cannot be opened, read or written; the message names the file and what
 // to do. (I/O is the one place of plenum where exceptions carry an outcome.)

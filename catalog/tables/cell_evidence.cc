@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "catalog/fields/laws/printed_part.h"
+#include "catalog/fields/price.h"
 #include "catalog/tables/layout.h"
+#include "catalog/tables/printed/price_cells.h"
+#include "catalog/tables/printed/printed_columns.h"
 #include "catalog/units/quantity.h"
 #include "catalog/units/text.h"
 
@@ -14,8 +18,33 @@ constexpr std::size_t kSampleBytes = 60;
 
 bool HasNumbers(const Family& family, const ColumnRead& column) {
   return std::any_of(column.targets.begin(), column.targets.end(), [&](const Target& target) {
-    return FindNumber(family, target.column) != nullptr;
+    return FindNumber(family, target.column) != nullptr || target.column == kOfferPrice ||
+           target.column == "c_rate";
   });
+}
+
+bool Gives(const ColumnRead& column, std::string_view name) {
+  return std::any_of(column.targets.begin(), column.targets.end(),
+                     [&](const Target& target) { return target.column == name; });
+}
+
+// The numbers of a cell: each side of a size, a price behind its sign.
+void NoteCells(const ColumnRead& column, const std::string& cell, ColumnEvidence& evidence) {
+  const bool is_size = Gives(column, kBodySize) || Gives(column, kBodyCylinder);
+  if (!is_size && !Gives(column, kOfferPrice)) return NoteCell(cell, evidence);
+  if (is_size) {
+    const auto pieces = SizePieces(cell);
+    const bool bare = FrontOf(pieces.back()).rest.empty();
+    for (const std::string_view piece : pieces) {
+      const std::size_t at = piece.find_first_of("0123456789");
+      if (at != std::string_view::npos) NoteCell(std::string(piece.substr(at)), evidence);
+    }
+    if (!bare) evidence.bare.clear();
+    return;
+  }
+  const Money money = MoneyOf(cell);
+  NoteCell(money.number.digits, evidence);
+  if (!money.currency.empty()) evidence.bare.clear();
 }
 
 void AskForDecimal(const ColumnRead& column, const std::string& why, TableReading& reading) {
@@ -74,7 +103,7 @@ std::vector<ColumnEvidence> LookAtCells(const Family& family, std::string_view t
       if (IsBlank(cells[i])) continue;
       auto& samples = reading.columns[i].samples;
       if (samples.size() < kSamples) samples.push_back(Cut(cells[i]));
-      if (has_numbers[i]) NoteCell(cells[i], evidence[i]);
+      if (has_numbers[i]) NoteCells(reading.columns[i], cells[i], evidence[i]);
     }
   };
   ForEachRow(
@@ -136,6 +165,37 @@ void AskForUnits(const Family& family, const std::vector<ColumnEvidence>& eviden
       }
       reading.questions.push_back(std::move(question));
       break;
+    }
+  }
+}
+
+void AskForCurrency(const Family& family, const std::vector<ColumnEvidence>& evidence,
+                    TableReading& reading) {
+  const auto is_given = [&](std::string_view name) {
+    return reading.set.contains(std::string(name)) ||
+           std::any_of(reading.columns.begin(), reading.columns.end(),
+                       [&](const ColumnRead& column) { return Gives(column, name); });
+  };
+  const bool by_length = FindNumber(family, "price_eur_per_m") != nullptr;
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    const ColumnRead& column = reading.columns[i];
+    for (const Target& target : column.targets) {
+      if (target.column != kOfferPrice || column.samples.empty()) continue;
+      const bool no_currency =
+          target.unit.empty() && !evidence[i].bare.empty() && !is_given(kOfferCurrency);
+      const bool no_length = by_length && !target.unit.ends_with("/m") && !is_given("offer_pack");
+      if (!no_currency && !no_length) continue;
+      Question question{"column", column.key, "", {}};
+      question.text =
+          Shown(column.key) + ": " +
+          (no_currency ? "in which currency is " + Shown(evidence[i].bare) + "?"
+                       : "is it the price of a metre? The metres of a roll go into offer_pack");
+      const std::string code = CurrencyOf(target.unit);
+      for (const std::string_view known : Currencies())
+        if (code.empty() || code == known)
+          question.answers.push_back("offer_price [" + std::string(known) +
+                                     (no_length ? "/m]" : "]"));
+      reading.questions.push_back(std::move(question));
     }
   }
 }

@@ -33,6 +33,11 @@ void FindDecimals(const std::vector<ColumnEvidence>& evidence, const TableOption
 void AskForUnits(const Family& family, const std::vector<ColumnEvidence>& evidence,
                  TableReading& reading);
 
+// Asks for the currency of bare prices that no column gives, and whether the price of a tube is
+// that of a metre.
+void AskForCurrency(const Family& family, const std::vector<ColumnEvidence>& evidence,
+                    TableReading& reading);
+
 }  // namespace plenum::catalog
 
 #endif  // PLENUM_CATALOG_TABLES_CELL_EVIDENCE_H_

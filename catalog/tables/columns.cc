@@ -4,7 +4,9 @@
 #include <set>
 #include <utility>
 
+#include "catalog/tables/heading_words.h"
 #include "catalog/tables/layout.h"
+#include "catalog/tables/printed/printed_columns.h"
 #include "catalog/units/quantity.h"
 #include "catalog/units/text.h"
 
@@ -67,6 +69,13 @@ std::string Listed(const std::vector<Target>& targets) {
   return text;
 }
 
+// "Set pressure range": both ends stand in each cell.
+bool IsRange(std::string_view heading, const HeadingMatch& match) {
+  const std::string plain = PlainWords(heading);
+  return match.targets.size() == 2 && AreEnds(match.targets[0], match.targets[1]) &&
+         (plain.find("range") != std::string::npos || plain.find("bereich") != std::string::npos);
+}
+
 Question QuestionOf(const Family& family, const ColumnRead& column, const HeadingMatch& match) {
   Question question{"column", column.key, "", {}};
   const std::string what = column.heading.empty() ? "column " + column.key.substr(1) +
@@ -89,9 +98,52 @@ Question QuestionOf(const Family& family, const ColumnRead& column, const Headin
     question.answers.push_back(FormatTarget(target));
     all += (all.empty() ? "" : " + ") + FormatTarget(target);
   }
-  if (match.targets.size() == 2 && IsConductance(match.targets.front().column))
+  if (match.targets.size() == 2 &&
+      (IsConductance(match.targets.front().column) || AreEnds(match.targets[0], match.targets[1])))
     question.answers.push_back(std::move(all));
   return question;
+}
+
+bool IsOffer(const Family& family, const Target& target) {
+  const PrintedColumn* printed = FindPrinted(family, target.column);
+  return printed != nullptr && printed->gives == "offers";
+}
+
+bool SaysPerMetre(std::string_view heading) {
+  const std::string plain = PlainWords(heading) + " ";
+  for (const std::string_view per :
+       {"per m ", "per metre ", "per meter ", "pro m ", "pro meter ", "je m ", "je meter "})
+    if (plain.find(per) != std::string::npos) return true;
+  return false;
+}
+
+// A price without a unit, or one beside a supplier, a date or a pack, is an offer; what else an
+// offer has says nothing without a price, and what it is is asked.
+void MakeOffers(const Family& family, TableReading& reading, std::vector<OpenColumn>& open) {
+  bool has_more = reading.set.contains("offer_supplier") || reading.set.contains("offer_date");
+  for (const ColumnRead& column : reading.columns)
+    for (const Target& target : column.targets) has_more |= IsOffer(family, target);
+  bool has_price = false;
+  for (ColumnRead& column : reading.columns)
+    for (Target& target : column.targets) {
+      const bool in_euro = target.column.starts_with("price_eur") && !target.by_full_name;
+      if (in_euro && (has_more || target.unit.empty())) {
+        const bool per_metre = target.unit.ends_with("/m");
+        const std::string unit = target.unit.empty() ? "" : per_metre ? "EUR/m" : "EUR";
+        target = {std::string(kOfferPrice), unit};
+      }
+      if (target.column != kOfferPrice) continue;
+      has_price = true;
+      if (SaysPerMetre(column.heading) && !target.unit.empty() && !target.unit.ends_with("/m"))
+        target.unit += "/m";
+    }
+  if (has_price) return;
+  for (std::size_t i = 0; i < reading.columns.size(); ++i)
+    if (auto& targets = reading.columns[i].targets;
+        targets.size() == 1 && IsOffer(family, targets.front())) {
+      targets.clear();
+      open.push_back({i, {}});
+    }
 }
 
 void AskForTwins(TableReading& reading) {
@@ -144,12 +196,13 @@ std::vector<OpenColumn> MapColumns(const Family& family, const CsvRow& header, c
         matches.empty() ? MatchHeading(family, column.heading) : std::move(matches[i]);
     if (const std::string* given = GivenFor(column, i, options))
       column.targets = GivenTargets(family, *given, column, reading);
-    else if (match.targets.size() == 1)
+    else if (match.targets.size() == 1 || IsRange(column.heading, match))
       column.targets = std::move(match.targets);
     else
       open.push_back({i, std::move(match)});
     reading.columns.push_back(std::move(column));
   }
+  MakeOffers(family, reading, open);
   return open;
 }
 

@@ -1,10 +1,14 @@
 #include "catalog/tables/heading.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "catalog/fields/csv.h"
 #include "catalog/tables/heading_phrases.h"
 #include "catalog/tables/heading_words.h"
+#include "catalog/tables/printed/price_cells.h"
+#include "catalog/tables/printed/printed_columns.h"
 #include "catalog/units/quantity.h"
 #include "catalog/units/text.h"
 #include "catalog/units/unit_table.h"
@@ -28,6 +32,8 @@ std::string_view FieldOfUnit(const Target& target) {
 }
 
 bool HasUnit(const Target& target, std::string_view unit) {
+  if (target.column == kOfferPrice) return !CurrencyOf(unit).empty();
+  if (target.column == "c_rate") return unit == "C" || unit == "c" || unit == "1/h";
   return ParseQuantity("1 " + std::string(unit), FieldOfUnit(target), {.needs_unit = true})
       .value.has_value();
 }
@@ -61,12 +67,27 @@ std::vector<Target> NamedBy(const Family& family, const std::vector<std::string>
   for (const NumberField& field : family.numbers) look(field.name, true);
   for (const TextField& field : family.texts) look(field.name, false);
   for (const std::string_view column : kPlainColumns) look(column, false);
+  if (!whole.empty()) return whole;
+  // What a sheet prints is the most that there is: "max. flow" is that against no pressure.
+  std::vector<std::string> without_max = words;
+  std::erase(without_max, "max");
+  for (const PrintedColumn* column : PrintedColumns(family)) {
+    const auto known = WordsOfField(column->field.name);
+    const bool has_all =
+        !without_max.empty() &&
+        std::includes(known.begin(), known.end(), without_max.begin(), without_max.end());
+    if (known == without_max)
+      whole.push_back({std::string(column->field.name), ""});
+    else if (has_all)
+      part.push_back({std::string(column->field.name), ""});
+  }
   return whole.empty() ? part : whole;
 }
 
-std::vector<Target> NamedBy(const Family& family, std::string_view phrase) {
-  std::vector<std::string> words = FieldWords(phrase);
+std::vector<Target> MeantBy(const Family& family, std::vector<std::string> words) {
   if (auto named = NamedBy(family, words); !named.empty()) return named;
+  // In German a designation, but also the principle.
+  if (words == std::vector<std::string>{"typ"}) return {{"part_number", ""}, {"type", ""}};
   const auto notation = TakeNotation(words);
   if (!notation) return {};
   for (const char* word : {"conductance", "sonic"})
@@ -83,6 +104,61 @@ bool IsImplied(const Target& target, std::string_view unit) {
          (target.notation == FlowNotation::kCv && (unit == "gpm" || unit == "US gal/min"));
 }
 
+// Those that can have the unit, with it.
+void KeepThoseWithUnit(const Family& family, std::string_view unit, std::vector<Target>& named) {
+  std::erase_if(named, [&](const Target& target) {
+    return !IsImplied(target, unit) && target.column != kOfferPrice && target.column != "c_rate" &&
+           FindNumber(family, target.column) == nullptr;
+  });
+  std::erase_if(named, [&](const Target& target) {
+    return !IsImplied(target, unit) && !HasUnit(target, unit);
+  });
+  for (Target& target : named)
+    if (!IsImplied(target, unit)) target.unit = unit;
+}
+
+// The word for what a unit measures, where fields of parts have one; empty: none.
+std::string_view QuantityOf(std::string_view unit) {
+  constexpr std::pair<std::string_view, std::string_view> kQuantities[] = {
+      {"_kpa_gauge", "pressure"},
+      {"_l_per_min", "flow"},
+      {"_ah", "capacity"},
+      {"_v", "voltage"},
+      {"_w", "power"},
+      {"_a", "current"},
+      {"_kg", "mass"},
+      {"_kg_per_m", "mass"}};
+  for (const auto& [field, word] : kQuantities)
+    if (ParseQuantity("1 " + std::string(unit), field, {.needs_unit = true}).value) return word;
+  return "";
+}
+
+// "max psi", "psi (max)", "mAh": a unit names its quantity. One letter alone may be anything.
+std::vector<Target> NamedByUnit(const Family& family, std::string_view heading) {
+  std::vector<std::string> words;
+  std::string_view unit;
+  for (std::string_view piece : Split(heading, ' ')) {
+    while (!piece.empty() && (piece.front() == '(' || piece.front() == '[')) piece.remove_prefix(1);
+    while (!piece.empty() && std::string_view(")].,").find(piece.back()) != std::string_view::npos)
+      piece.remove_suffix(1);
+    const auto said = FieldWords(family.name, piece);
+    if (said.empty()) continue;
+    if (!SayMore(said))
+      words.insert(words.end(), said.begin(), said.end());
+    else if (unit.empty())
+      unit = piece;
+    else
+      return {};
+  }
+  const std::string_view quantity = QuantityOf(unit);
+  if (quantity.empty() || (words.empty() && unit.size() < 2)) return {};
+  words.emplace_back(quantity);
+  std::sort(words.begin(), words.end());
+  std::vector<Target> named = NamedBy(family, words);
+  KeepThoseWithUnit(family, unit, named);
+  return named;
+}
+
 bool SaysNoUnit(std::string_view unit) { return unit.empty() || unit == "-" || unit == "1"; }
 
 }  // namespace
@@ -94,10 +170,18 @@ std::string FormatTarget(const Target& target) {
   return target.column + (inside.empty() ? "" : " [" + inside + "]");
 }
 
+bool AreEnds(const Target& low, const Target& high) {
+  const std::size_t at = low.column.find("_min");
+  if (at == std::string::npos || low.notation || high.notation) return false;
+  std::string other = low.column;
+  return other.replace(at, 4, "_max") == high.column;
+}
+
 const NumberField* FindNumber(const Family& family, std::string_view column) {
   for (const NumberField& field : family.numbers)
     if (field.name == column) return &field;
-  return nullptr;
+  const PrintedColumn* printed = FindPrinted(family, column);
+  return printed != nullptr && printed->is_number ? &printed->field : nullptr;
 }
 
 HeadingMatch MatchHeading(const Family& family, std::string_view heading) {
@@ -107,19 +191,20 @@ HeadingMatch MatchHeading(const Family& family, std::string_view heading) {
   if (IsCsvColumn(family, heading)) return {{{std::string(heading), "", std::nullopt, true}}, ""};
   std::string wrong_unit;
   for (const HeadingPhrase& phrase : SplitHeading(heading)) {
-    std::vector<Target> named = NamedBy(family, phrase.words);
-    if (named.empty()) continue;
-    if (phrase.in_brackets && SaysNoUnit(phrase.unit)) return {std::move(named), ""};
-    std::erase_if(named, [&](const Target& target) {
-      return !IsImplied(target, phrase.unit) &&
-             (FindNumber(family, target.column) == nullptr || !HasUnit(target, phrase.unit));
-    });
-    for (Target& target : named)
-      if (!IsImplied(target, phrase.unit)) target.unit = phrase.unit;
+    std::vector<Target> named = MeantBy(family, FieldWords(family.name, phrase.words));
+    if (phrase.in_brackets && SaysNoUnit(phrase.unit) && !named.empty())
+      return {std::move(named), ""};
+    const bool has_words = !named.empty();
+    KeepThoseWithUnit(family, phrase.unit, named);
+    if (named.empty()) {
+      named = MeantBy(family, WordsWithUnit(family.name, phrase.words));
+      KeepThoseWithUnit(family, phrase.unit, named);
+    }
     if (!named.empty()) return {std::move(named), ""};
-    if (phrase.in_brackets) wrong_unit = phrase.unit;
+    if (phrase.in_brackets && has_words) wrong_unit = phrase.unit;
   }
-  std::vector<Target> named = NamedBy(family, heading);
+  std::vector<Target> named = MeantBy(family, FieldWords(family.name, heading));
+  if (named.empty()) named = NamedByUnit(family, heading);
   if (!named.empty()) return {std::move(named), ""};
   return {{}, std::move(wrong_unit)};
 }
@@ -128,9 +213,10 @@ GivenTarget ParseTarget(const Family& family, std::string_view text) {
   text = Trimmed(text);
   const std::size_t open = text.find('[');
   Target target{std::string(Trimmed(text.substr(0, open))), "", std::nullopt, false};
-  if (!IsCsvColumn(family, target.column)) {
+  if (!IsCsvColumn(family, target.column) && FindPrinted(family, target.column) == nullptr) {
     const auto columns = CsvColumns(family);
-    const std::vector<std::string_view> known(columns.begin(), columns.end());
+    std::vector<std::string_view> known(columns.begin(), columns.end());
+    for (const PrintedColumn* column : PrintedColumns(family)) known.push_back(column->field.name);
     return {{},
             Shown(target.column) + " is no column of family " + std::string(family.name) +
                 "; nearest: " + std::string(NearestName(target.column, known))};
@@ -147,6 +233,10 @@ GivenTarget ParseTarget(const Family& family, std::string_view text) {
     }
   }
   target.unit = unit;
+  if (target.column == kOfferPrice) {
+    if (unit.empty() || !CurrencyOf(unit).empty()) return {std::move(target), ""};
+    return {{}, Shown(unit) + " is no currency that can be converted"};
+  }
   if (FindNumber(family, target.column) == nullptr && !unit.empty())
     return {{}, target.column + " has no unit"};
   if (!unit.empty() && !HasUnit(target, unit))

@@ -14,7 +14,7 @@ namespace plenum::catalog {
 
 // Where the cells of a column go.
 struct Target {
-  std::string column;  // of CsvColumns(family)
+  std::string column;  // of CsvColumns(family), or of catalog/tables/printed/printed_columns.h
   std::string unit;    // of bare numbers; empty: none is said
   // The column prints flow otherwise than as a sonic conductance (catalog/units/printed_flow.h).
   std::optional<FlowNotation> notation = std::nullopt;
@@ -32,8 +32,10 @@ struct HeadingMatch {
 
 // What a heading means, in this order: the name of a column ("mass_kg"); words for a field with its
 // unit in brackets or behind "in", "/", "," or a blank ("Gewicht [g]", "Druck in bar", "mass_g");
-// the words alone. A field is meant by its own words ("pressure max", in any order), also in other
-// words and in German (catalog/tables/heading_words.h); where only some of the words are given
+// the words alone; a unit alone or with "max" and "min", which names its quantity ("max psi").
+// Words that mean something else beside a unit are read with it: "ID (mm)", "PN (bar)". A field is
+// meant by its own words ("pressure max", in any order), also in other words and in German
+// (catalog/tables/heading_words.h); where only some of the words are given
 // ("pressure"), every number field that has them. Of these the unit leaves those that can have it.
 HeadingMatch MatchHeading(const Family& family, std::string_view heading);
 
@@ -44,7 +46,10 @@ struct GivenTarget {
 };
 GivenTarget ParseTarget(const Family& family, std::string_view text);
 
-// Null where the column is no number field.
+// Whether the lower and the upper end of one range: inlet_pressure_min_… and inlet_pressure_max_….
+bool AreEnds(const Target& low, const Target& high);
+
+// Null where the column is no number field, nor printed as numbers.
 const NumberField* FindNumber(const Family& family, std::string_view column);
 
 }  // namespace plenum::catalog

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
+#include "catalog/tables/heading_vocabulary.h"
 #include "catalog/units/text.h"
 
 namespace plenum::catalog {
@@ -20,167 +22,6 @@ constexpr Letter kLetters[] = {
     {"⌀", " diameter "}, {"Ø", " diameter "}, {"ø", " diameter "}, {"Σ", " total "},
     {"#", " number "},   {"№", " number "}};
 
-// A word of a heading and the words of field names that it stands for; none: it says nothing.
-constexpr std::pair<std::string_view, std::string_view> kWords[] = {
-    {"maximum", "max"},
-    {"maximal", "max"},
-    {"maximale", "max"},
-    {"maximaler", "max"},
-    {"highest", "max"},
-    {"hoechster", "max"},
-    {"minimum", "min"},
-    {"minimal", "min"},
-    {"minimale", "min"},
-    {"minimaler", "min"},
-    {"lowest", "min"},
-    {"mass", "mass"},
-    {"masse", "mass"},
-    {"gewicht", "mass"},
-    {"weight", "mass"},
-    {"wt", "mass"},
-    {"poids", "mass"},
-    {"gewichts", "mass"},
-    {"metergewicht", "mass"},
-    {"druck", "pressure"},
-    {"pression", "pressure"},
-    {"betriebsdruck", "pressure"},
-    {"operating", ""},
-    {"working", ""},
-    {"rated", ""},
-    {"zul", ""},
-    {"zulaessiger", ""},
-    {"maximaldruck", "max pressure"},
-    {"hoechstdruck", "max pressure"},
-    {"pmax", "max pressure"},
-    {"pmin", "min pressure"},
-    {"mindestdruck", "min pressure"},
-    {"eingangsdruck", "inlet pressure"},
-    {"ausgangsdruck", "outlet pressure"},
-    {"fuelldruck", "fill pressure"},
-    {"volumen", "volume"},
-    {"innenvolumen", "internal volume"},
-    {"nennvolumen", "internal volume"},
-    {"tankvolumen", "internal volume"},
-    {"inner", "inner"},
-    {"aussenvolumen", "body volume"},
-    {"bauvolumen", "body volume"},
-    {"envelope", "body"},
-    {"koerpervolumen", "body volume"},
-    {"durchmesser", "diameter"},
-    {"dia", "diameter"},
-    {"diam", "diameter"},
-    {"innen", "inner"},
-    {"inside", "inner"},
-    {"innendurchmesser", "inner diameter"},
-    {"aussen", "outer"},
-    {"outside", "outer"},
-    {"aussendurchmesser", "outer diameter"},
-    {"schlauch", "tube"},
-    {"schlauchaussendurchmesser", "tube outer diameter"},
-    {"od", "outer diameter"},
-    {"werkstoff", "material"},
-    {"gewinde", "thread"},
-    {"anschluss", "port"},
-    {"chemie", "chemistry"},
-    {"bauform", "style"},
-    {"spannung", "voltage"},
-    {"nennspannung", "nominal voltage"},
-    {"nominal", "nominal"},
-    {"strom", "current"},
-    {"dauerstrom", "max current"},
-    {"maximalstrom", "max current"},
-    {"kapazitaet", "capacity"},
-    {"zellen", "cells"},
-    {"serie", "series"},
-    {"reihe", "series"},
-    {"baureihe", "series"},
-    {"leistung", "power"},
-    {"spulenleistung", "coil power"},
-    {"leistungsaufnahme", "power"},
-    {"consumption", ""},
-    {"kanaele", "channels"},
-    {"channel", "channels"},
-    {"stationen", "stations"},
-    {"funktion", "function"},
-    {"schaltzeit", "response time"},
-    {"ansprechzeit", "response time"},
-    {"switching", "response"},
-    {"filling", "fill"},
-    {"belueften", "fill"},
-    {"inflate", "fill"},
-    {"vent", "exhaust"},
-    {"venting", "exhaust"},
-    {"entlueften", "exhaust"},
-    {"deflate", "exhaust"},
-    {"c", "sonic conductance"},
-    {"leitwert", "sonic conductance"},
-    {"pneumatischer", ""},
-    {"b", "critical ratio"},
-    {"druckverhaeltnis", "critical ratio"},
-    {"kritisches", ""},
-    {"hersteller", "manufacturer"},
-    {"maker", "manufacturer"},
-    {"brand", "manufacturer"},
-    {"make", "manufacturer"},
-    {"marke", "manufacturer"},
-    {"fabricant", "manufacturer"},
-    {"mfr", "manufacturer"},
-    {"mfg", "manufacturer"},
-    {"artikelnummer", "part number"},
-    {"bestellnummer", "part number"},
-    {"teilenummer", "part number"},
-    {"artikel", "part"},
-    {"article", "part"},
-    {"bestell", "part"},
-    {"order", "part"},
-    {"ordering", "part"},
-    {"teile", "part"},
-    {"nr", "number"},
-    {"no", "number"},
-    {"nummer", "number"},
-    {"code", "number"},
-    {"pn", "part number"},
-    {"mpn", "part number"},
-    {"model", "part number"},
-    {"modell", "part number"},
-    {"reference", "part number"},
-    {"bestellbezeichnung", "part number"},
-    {"typenbezeichnung", "part number"},
-    {"preis", "price"},
-    {"prix", "price"},
-    {"stueckpreis", "price"},
-    {"einzelpreis", "price"},
-    {"bemerkung", "notes"},
-    {"bemerkungen", "notes"},
-    {"remarks", "notes"},
-    {"comment", "notes"},
-    {"comments", "notes"},
-    {"note", "notes"},
-    {"anmerkung", "notes"},
-    {"datasheet", "documents"},
-    {"datenblatt", "documents"},
-    {"lieferbar", "orderable"},
-    {"of", ""},
-    {"the", ""},
-    {"per", ""},
-    {"pro", ""},
-    {"je", ""},
-    {"der", ""},
-    {"des", ""},
-    {"value", ""},
-    {"wert", ""},
-    {"unit", ""},
-    {"stueck", ""},
-    {"piece", ""},
-    {"in", ""},
-    {"cylinder", ""},
-    {"flasche", ""},
-    {"net", ""},
-    {"netto", ""},
-    {"metre", ""},
-    {"meter", ""},
-};
-
 struct NotationWords {
   FlowNotation notation;
   std::vector<std::string> words;  // sorted
@@ -194,6 +35,7 @@ const std::vector<NotationWords>& Notations() {
       {FlowNotation::kQn, {"nenndurchfluss"}},
       {FlowNotation::kQn, {"normalnenndurchfluss"}},
       {FlowNotation::kQn, {"flow", "nominal", "rate", "standard"}},
+      {FlowNotation::kQn, {"flow", "nominal", "standard"}},
       {FlowNotation::kQn, {"flow", "nominal", "rate"}},
       {FlowNotation::kQn, {"flow", "nominal"}},
       {FlowNotation::kOrifice, {"diameter", "orifice"}},
@@ -210,6 +52,52 @@ const std::vector<NotationWords>& Notations() {
 void AddWords(std::string_view words, std::vector<std::string>& to) {
   for (const std::string_view word : Split(words, ' '))
     if (!word.empty()) to.emplace_back(word);
+}
+
+using Meanings = std::map<std::string_view, std::string_view>;
+
+const Meanings& GeneralMeanings() {
+  static const Meanings kMeanings = [] {
+    Meanings all;
+    for (const HeadingWord& word : HeadingWords()) all[word.word] = word.meaning;
+    return all;
+  }();
+  return kMeanings;
+}
+
+// The words of a heading, with single blanks around each, several that say one thing as one.
+std::string Idiomatic(std::string_view heading) {
+  const std::string apart = PlainWords(heading);
+  std::string plain = " ";
+  for (const std::string_view word : Split(apart, ' '))
+    if (!word.empty()) plain.append(word).append(" ");
+  for (const auto& [words, meaning] : HeadingIdioms()) {
+    const std::string whole = " " + std::string(words) + " ";
+    const std::size_t at = plain.find(whole);
+    if (at != std::string::npos) plain.replace(at, whole.size(), " " + std::string(meaning) + " ");
+  }
+  return plain;
+}
+
+std::vector<std::string> Meaning(std::string_view family, std::string_view heading,
+                                 const Meanings& meanings) {
+  std::vector<std::string> general, words;
+  const std::string plain = Idiomatic(heading);
+  for (const std::string_view word : Split(plain, ' ')) {
+    if (word.empty()) continue;
+    const auto meaning = meanings.find(word);
+    AddWords(meaning == meanings.end() ? word : meaning->second, general);
+  }
+  for (const std::string& word : general) {
+    const auto& all = FamilyWords();
+    const auto own = std::find_if(all.begin(), all.end(), [&](const FamilyWord& one) {
+      return one.family == family && one.word == word;
+    });
+    AddWords(own == all.end() ? std::string_view(word) : own->meaning, words);
+  }
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return words;
 }
 
 }  // namespace
@@ -232,19 +120,17 @@ std::string PlainWords(std::string_view text) {
   return plain;
 }
 
-std::vector<std::string> FieldWords(std::string_view heading) {
-  static const std::map<std::string_view, std::string_view> kMeanings(std::begin(kWords),
-                                                                      std::end(kWords));
-  std::vector<std::string> words;
-  const std::string plain = PlainWords(heading);
-  for (const std::string_view word : Split(plain, ' ')) {
-    if (word.empty()) continue;
-    const auto meaning = kMeanings.find(word);
-    AddWords(meaning == kMeanings.end() ? word : meaning->second, words);
-  }
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  return words;
+std::vector<std::string> FieldWords(std::string_view family, std::string_view heading) {
+  return Meaning(family, heading, GeneralMeanings());
+}
+
+std::vector<std::string> WordsWithUnit(std::string_view family, std::string_view heading) {
+  static const Meanings kMeanings = [] {
+    Meanings all = GeneralMeanings();
+    for (const HeadingWord& word : HeadingWordsWithUnit()) all[word.word] = word.meaning;
+    return all;
+  }();
+  return Meaning(family, heading, kMeanings);
 }
 
 std::optional<FlowNotation> TakeNotation(std::vector<std::string>& words) {

@@ -16,8 +16,11 @@ namespace plenum::catalog {
 std::string PlainWords(std::string_view text);
 
 // The words of a heading in those of field names, sorted: "Max. Betriebsdruck" gives "max",
-// "pressure". Words that say nothing here are left out.
-std::vector<std::string> FieldWords(std::string_view heading);
+// "pressure". Words that say nothing here are left out. Some say what they say in the tables of one
+// family alone: the bore of a tube is its inner diameter, that of a valve its orifice.
+std::vector<std::string> FieldWords(std::string_view family, std::string_view heading);
+// The same beside a unit: "ID" is an inner diameter in "ID (mm)".
+std::vector<std::string> WordsWithUnit(std::string_view family, std::string_view heading);
 
 // The notation that words such as "Cv", "Kv-Wert" or "Nenndurchfluss" stand for. It takes them out
 // of `words`, so that "fill" may be left.

@@ -8,6 +8,7 @@
 #include "catalog/tables/columns.h"
 #include "catalog/tables/encoding.h"
 #include "catalog/tables/layout.h"
+#include "catalog/tables/printed/printed_columns.h"
 #include "catalog/units/text.h"
 
 namespace plenum::catalog {
@@ -45,7 +46,7 @@ void CheckOptions(const Family& family, const TableOptions& options, TableReadin
   const auto columns = CsvColumns(family);
   const std::vector<std::string_view> known(columns.begin(), columns.end());
   for (const auto& [column, value] : options.set)
-    if (!IsCsvColumn(family, column))
+    if (!IsCsvColumn(family, column) && FindPrinted(family, column) == nullptr)
       reading.errors.push_back({0, "set",
                                 Shown(column) + " is no column of family " +
                                     std::string(family.name) +
@@ -89,6 +90,7 @@ void ReadLayout(const Family& family, const TableOptions& options, TableReading&
   AskForColumns(family, open, options, reading);
   FindDecimals(evidence, options, reading);
   AskForUnits(family, evidence, reading);
+  AskForCurrency(family, evidence, reading);
   const auto gives_id = [](const ColumnRead& column) {
     return std::any_of(column.targets.begin(), column.targets.end(),
                        [](const Target& target) { return target.column == "id"; });

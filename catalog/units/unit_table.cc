@@ -25,6 +25,7 @@ constexpr Unit kPressures[] = {
     {"atm", 101.325, 1, 0, {}, true},
     {"Torr", 101.325, 760, 0, {}, true},
     {"kgf/cm2", 98.0665, 1, 0, {}, true},
+    {"kg/cm2", 98.0665, 1, 0, {}, true},
 };
 constexpr Unit kConductances[] = {
     {"dm3/(sbar)"},        {"dm3/sbar", 1, 1, 0, {}, true},
@@ -35,6 +36,8 @@ constexpr Unit kConductances[] = {
 constexpr Unit kFlows[] = {
     {"L/min"},
     {"L/s", 60},
+    {"lpm", 1, 1, 0, {}, true},
+    {"LPM", 1, 1, 0, {}, true},
     {"L/h", 1, 60, 0, {}, true},
     {"mL/min", 1, 1000, 0, {}, true},
     {"m3/h", 1000, 60},
@@ -52,8 +55,26 @@ constexpr Unit kViscous[] = {{"Pa2s/kg"}};
 constexpr Unit kInertial[] = {{"Pa2s2/kg2"}};
 constexpr Unit kFlowsPerBar[] = {{"L/(minbar)"}, {"L/minbar", 1, 1, 0, {}, true}, {"L/(sbar)", 60}};
 constexpr Unit kMasses[] = {
-    {"kg"}, {"g", 1, 1000}, {"mg", 1, 1e6}, {"lb", 0.45359237}, {"oz", 0.45359237, 16}};
-constexpr Unit kMassesPerM[] = {{"kg/m"}, {"g/m", 1, 1000}, {"lb/ft", 0.45359237, 0.3048}};
+    {"kg"},
+    {"g", 1, 1000},
+    {"mg", 1, 1e6},
+    {"lb", 0.45359237},
+    {"oz", 0.45359237, 16},
+    {"lbs", 0.45359237, 1, 0, {}, true},
+    {"gram", 1, 1000, 0, {}, true},
+    {"grams", 1, 1000, 0, {}, true},
+};
+constexpr Unit kMassesPerM[] = {
+    {"kg/m"},
+    {"g/m", 1, 1000},
+    {"lb/ft", 0.45359237, 0.3048},
+    {"lbs/ft", 0.45359237, 0.3048, 0, {}, true},
+    {"g/ft", 1, 304.8, 0, {}, true},
+    {"oz/ft", 0.45359237, 16 * 0.3048, 0, {}, true},
+    {"kg/100m", 1, 100, 0, {}, true},
+    {"lb/100ft", 0.45359237, 30.48, 0, {}, true},
+    {"lbs/100ft", 0.45359237, 30.48, 0, {}, true},
+};
 constexpr Unit kMillilitres[] = {
     {"mL"},      {"cm3"},       {"cc"},      {"mm3", 1, 1000, 0, {}, true},
     {"L", 1000}, {"dm3", 1000}, {"m3", 1e6}, {"in3", 16.387064}};
@@ -66,6 +87,7 @@ constexpr Unit kMillimetres[] = {{"mm"},
                                  {"m", 1000},
                                  {"in", 25.4},
                                  {"inch", 25.4, 1, 0, {}, true},
+                                 {"inches", 25.4, 1, 0, {}, true},
                                  {"\"", 25.4, 1, 0, {}, true},
                                  {"″", 25.4, 1, 0, {}, true},
                                  {"ft", 304.8}};
@@ -103,10 +125,16 @@ constexpr Unit kDegrees[] = {{"°"}, {"deg", 1, 1, 0, {}, true}, {"rad", 57.2957
 constexpr Unit kRadians[] = {{"rad/s"}, {"Hz", 6.283185307179586}};
 constexpr Unit kEuros[] = {{"EUR"}, {"€"}};
 constexpr Unit kEurosPerM[] = {{"EUR/m"}, {"€/m"}};
-constexpr Unit kAmpereHours[] = {{"Ah"}, {"mAh", 1, 1000}};
+constexpr Unit kAmpereHours[] = {{"Ah"}, {"mAh", 1, 1000}, {"AH", 1, 1, 0, {}, true}};
 constexpr Unit kWattHours[] = {
     {"Wh"}, {"kWh", 1000}, {"mWh", 1, 1000, 0, {}, true}, {"J", 1, 3600}, {"kJ", 1000, 3600}};
-constexpr Unit kVolts[] = {{"V"}, {"mV", 1, 1000}, {"kV", 1000}};
+constexpr Unit kVolts[] = {{"V"},
+                           {"mV", 1, 1000},
+                           {"kV", 1000},
+                           {"VDC", 1, 1, 0, {}, true},
+                           {"Vdc", 1, 1, 0, {}, true},
+                           {"Volt", 1, 1, 0, {}, true},
+                           {"Volts", 1, 1, 0, {}, true}};
 constexpr Unit kAmperes[] = {{"A"}, {"mA", 1, 1000}};
 constexpr Unit kWatts[] = {{"W"}, {"mW", 1, 1000}, {"kW", 1000}};
 constexpr Unit kShares[] = {{"%", 1, 100}};

@@ -63,6 +63,12 @@ struct GroupSetup {
   T BentPressure(const T& pressure_pa) const;
 };
 
+// ANR, from other actuators and into them, and the heat that comes with the first.
+template <class T>
+struct PassedGas {
+  T in_m3_per_s = T(0.0), out_m3_per_s = T(0.0), heat_w = T(0.0);
+};
+
 // One actuator at an instant.
 template <class T>
 struct Moment {
@@ -79,10 +85,11 @@ struct Moment {
   T content_m3 = T(0.0);             // ANR; of dense gas
   double heat_capacity_ratio = 1.0;  // κ
   T wall_heat_w = T(0.0);
-  T line_factor = T(1.0);                         // on the conductance of the line, both ways
-  T draw_m3_per_s = T(0.0);                       // ANR, out of the source
-  T line_in_m3_per_s = T(0.0);                    // ANR, head to tail
-  T line_out_m3_per_s = T(0.0);                   // ANR, tail to ambient
+  T line_factor = T(1.0);        // on the conductance of the line, both ways
+  T draw_m3_per_s = T(0.0);      // ANR, out of the source
+  T line_in_m3_per_s = T(0.0);   // ANR, head to tail
+  T line_out_m3_per_s = T(0.0);  // ANR, tail to ambient
+  PassedGas<T> passed;
   T in_m3_per_s = T(0.0), out_m3_per_s = T(0.0);  // ANR, into and out of the actuator
   T leak_m3_per_s = T(0.0);                       // the part of out that leaks
   T pressure_rate_pa_per_s = T(0.0);

@@ -75,6 +75,9 @@ struct Compressor {
   double duty_max = 1.0;  // thermal limit on the share of time that it runs
   // Of an ejector, which has no motor (curve.voltage_v 0), while it runs, ANR.
   double air_consumption_m3_per_s = 0.0;
+  // It lets air back while it is off, so that each feed has a check valve behind it; from so much
+  // on that one opens, and so much lower are the pressures of `curve`, which are those behind it.
+  std::optional<double> check_valve_cracking_pa = {};
   bool operator==(const Compressor&) const = default;
 };
 
@@ -134,6 +137,15 @@ struct Manifold {
   bool operator==(const Manifold&) const = default;
 };
 
+// It passes air one way, once the pressure in front is so much higher.
+struct CheckValve {
+  PartBasics basics;
+  double sonic_conductance_m3_per_s_pa = 0.0;
+  double cracking_pressure_pa = 0.0;
+  double pressure_max_pa = 0.0;
+  bool operator==(const CheckValve&) const = default;
+};
+
 struct Parts {
   std::vector<Tubing> tubing;
   std::vector<Fitting> fittings;
@@ -148,6 +160,7 @@ struct Parts {
   std::vector<Compressor> vacuum_pumps;  // curves over mirrored pressures (chamber.h)
   std::vector<Manifold> manifolds;
   std::vector<Compressor> ejectors;  // as vacuum_pumps
+  std::vector<CheckValve> check_valves;
 };
 
 }  // namespace plenum::model

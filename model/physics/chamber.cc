@@ -39,6 +39,21 @@ std::string WhyCurveInvalid(const Chamber& chamber) {
   return {};
 }
 
+// Of what is pulled below ambient.
+std::string WhyLowInvalid(const Chamber& chamber) {
+  const double low_pa = chamber.low_pressure_pa, exhaust_pa = chamber.exhaust_pressure_pa;
+  if (!(low_pa >= 0.0 && low_pa <= chamber.ambient_pressure_pa))
+    return Reason("low_pressure_pa", low_pa, "0 or above it and at most ambient_pressure_pa");
+  if (!(exhaust_pa >= 0.0) || !std::isfinite(exhaust_pa))
+    return Reason("exhaust_pressure_pa", exhaust_pa, "finite and at least 0");
+  if (chamber.evacuated && (low_pa > 0.0 || exhaust_pa > 0.0))
+    return "low_pressure_pa and exhaust_pressure_pa are for actuators under pressure, not "
+           "evacuated ones";
+  if (low_pa > 0.0 && !(Volume(chamber, low_pa) > chamber.dead_volume_m3))
+    return Reason("low_pressure_pa", low_pa, "where the law of the volume leaves some");
+  return {};
+}
+
 }  // namespace
 
 std::string WhyInvalid(const Chamber& chamber) {
@@ -46,31 +61,37 @@ std::string WhyInvalid(const Chamber& chamber) {
   if (!positive(chamber.ambient_pressure_pa)) {
     return Reason("ambient_pressure_pa", chamber.ambient_pressure_pa, "positive and finite");
   }
-  if (!(chamber.operating_pressure_pa > chamber.ambient_pressure_pa) ||
-      !std::isfinite(chamber.operating_pressure_pa)) {
+  const bool shrinks = Shrinks(chamber);
+  const bool apart = shrinks ? chamber.operating_pressure_pa > 0.0
+                             : chamber.operating_pressure_pa > chamber.ambient_pressure_pa;
+  if (!apart || !std::isfinite(chamber.operating_pressure_pa)) {
     return Reason("operating_pressure_pa", chamber.operating_pressure_pa,
-                  "finite and above ambient_pressure_pa");
+                  "finite and above ambient_pressure_pa, or between 0 and it where the actuator "
+                  "shrinks");
   }
   if (!(chamber.dead_volume_m3 >= 0.0) || !std::isfinite(chamber.dead_volume_m3)) {
     return Reason("dead_volume_m3", chamber.dead_volume_m3, "finite and at least 0");
   }
-  if (chamber.evacuated && !chamber.volume_curve.empty())
+  if ((chamber.evacuated || shrinks) && !chamber.volume_curve.empty())
     return "volume_curve is for actuators under pressure, not evacuated ones";
   if (chamber.evacuated && !(chamber.operating_pressure_pa < MirrorPa(chamber)))
     return Reason("operating_pressure_pa (mirrored)", chamber.operating_pressure_pa,
                   "below twice ambient_pressure_pa");
-  if (!chamber.volume_curve.empty()) return WhyCurveInvalid(chamber);
+  if (!chamber.volume_curve.empty()) {
+    std::string why = WhyCurveInvalid(chamber);
+    return why.empty() ? WhyLowInvalid(chamber) : why;
+  }
   if (!positive(chamber.rest_volume_m3)) {
     return Reason("rest_volume_m3", chamber.rest_volume_m3, "positive and finite");
   }
-  if (chamber.evacuated && !(chamber.expansion_ratio > 0.0 && chamber.expansion_ratio <= 1.0)) {
+  const bool below = chamber.evacuated || shrinks;
+  if (below && !(chamber.expansion_ratio > 0.0 && chamber.expansion_ratio <= 1.0)) {
     return Reason("expansion_ratio", chamber.expansion_ratio, "above 0 and at most 1");
   }
-  if (!chamber.evacuated &&
-      (!(chamber.expansion_ratio >= 1.0) || !std::isfinite(chamber.expansion_ratio))) {
+  if (!below && (!(chamber.expansion_ratio >= 1.0) || !std::isfinite(chamber.expansion_ratio))) {
     return Reason("expansion_ratio", chamber.expansion_ratio, "finite and at least 1");
   }
-  return {};
+  return WhyLowInvalid(chamber);
 }
 
 double Volume(const Chamber& chamber, double pressure_pa) {

@@ -57,7 +57,9 @@ class CycleMap {
     }
     for (std::size_t i = 0; i < rig.groups.size(); ++i) {
       Repeat(rig_.groups[i].schedule, system.valve_delay_s(i));
-      if (rig.groups[i].close_at_operating) CloseWhatWasFilled(rig_.groups[i].schedule);
+      if (rig.groups[i].close_at_operating)
+        CloseWhatEnded(ValveState::kInflate, rig_.groups[i].schedule);
+      if (rig.groups[i].close_at_low) CloseWhatEnded(ValveState::kDeflate, rig_.groups[i].schedule);
       commands_.push_back(rig.groups[i].schedule.size());
     }
   }
@@ -110,13 +112,14 @@ class CycleMap {
   }
 
   // A valve that was told to inflate before 0 has closed since, as it will in later periods: open
-  // it would fill its chamber beyond the operating pressure in the first.
-  void CloseWhatWasFilled(std::vector<ValveCommand>& schedule) const {
+  // it would fill its chamber beyond the operating pressure in the first. Or to deflate, below the
+  // low pressure.
+  void CloseWhatEnded(ValveState state, std::vector<ValveCommand>& schedule) const {
     constexpr double kJustBefore = -1e-12;  // of the period
     const auto now =
         std::find_if(schedule.begin(), schedule.end(),
                      [](const ValveCommand& command) { return command.time_s >= 0.0; });
-    if (now != schedule.begin() && std::prev(now)->state == ValveState::kInflate)
+    if (now != schedule.begin() && std::prev(now)->state == state)
       schedule.insert(now, {kJustBefore * period_s_, ValveState::kHold});
   }
 

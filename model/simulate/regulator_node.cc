@@ -53,8 +53,20 @@ T NodePressure(const NodeSupply<T>& supply, std::span<const NodeOutlet<T>> outle
   return T(node_pa);
 }
 
+template <class T>
+bool TakeGivenFlow(const NodeSupply<T>& supply, const NodeOutlet<T>& outlet, T& flow) {
+  const std::span<const double> free_air = supply.pump->free_air_m3_per_s.y();
+  const double delivered = free_air.front() * supply.pumps;
+  if (free_air.front() != free_air.back()) return false;  // it falls
+  flow = supply.duty * delivered / outlet.copies;
+  return !(outlet.line->Flow(supply.pressure_pa, outlet.pressure_pa) < flow);
+}
+
 template double NodePressure(const NodeSupply<double>&, std::span<const NodeOutlet<double>>);
 template Dual NodePressure(const NodeSupply<Dual>&, std::span<const NodeOutlet<Dual>>);
 template WideDual NodePressure(const NodeSupply<WideDual>&, std::span<const NodeOutlet<WideDual>>);
+template bool TakeGivenFlow(const NodeSupply<double>&, const NodeOutlet<double>&, double&);
+template bool TakeGivenFlow(const NodeSupply<Dual>&, const NodeOutlet<Dual>&, Dual&);
+template bool TakeGivenFlow(const NodeSupply<WideDual>&, const NodeOutlet<WideDual>&, WideDual&);
 
 }  // namespace plenum::model

@@ -42,10 +42,20 @@ struct NodeSupply {
 template <class T>
 T NodePressure(const NodeSupply<T>& supply, std::span<const NodeOutlet<T>> outlets);
 
+// The flow of a pump that delivers the same at any pressure, as a flow controller does, into each
+// copy of the only open line: it does not depend on the node. False of other pumps, and where the
+// line passes less at the highest pressure.
+template <class T>
+bool TakeGivenFlow(const NodeSupply<T>& supply, const NodeOutlet<T>& outlet, T& flow);
+
 extern template double NodePressure(const NodeSupply<double>&, std::span<const NodeOutlet<double>>);
 extern template Dual NodePressure(const NodeSupply<Dual>&, std::span<const NodeOutlet<Dual>>);
 extern template WideDual NodePressure(const NodeSupply<WideDual>&,
                                       std::span<const NodeOutlet<WideDual>>);
+extern template bool TakeGivenFlow(const NodeSupply<double>&, const NodeOutlet<double>&, double&);
+extern template bool TakeGivenFlow(const NodeSupply<Dual>&, const NodeOutlet<Dual>&, Dual&);
+extern template bool TakeGivenFlow(const NodeSupply<WideDual>&, const NodeOutlet<WideDual>&,
+                                   WideDual&);
 
 }  // namespace plenum::model
 

@@ -82,7 +82,20 @@ std::vector<RigNumber> NumbersOfParts(const Rig& rig) {
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     AddGroup("groups[" + std::to_string(i) + "].", rig.groups[i], all);
   }
+  for (std::size_t i = 0; i < rig.links.size(); ++i) {
+    all.AddElements("links[" + std::to_string(i) + "].fill", rig.links[i].fill);
+    all.AddElements("links[" + std::to_string(i) + "].back", rig.links[i].back);
+  }
   return all.numbers;
+}
+
+// A value of the table by which a reservoir's pump delivers.
+bool IsDelivery(const Rig& rig, const double* number) {
+  const auto* reservoir = std::get_if<ReservoirSource>(&rig.source);
+  if (!reservoir) return false;
+  const std::span<const double> values = reservoir->compressor.free_air_m3_per_s.y();
+  return std::any_of(values.begin(), values.end(),
+                     [&](const double& value) { return &value == number; });
 }
 
 std::string WhyRefused(const Rig& rig, std::span<const Direction> directions) {
@@ -97,7 +110,7 @@ std::string WhyRefused(const Rig& rig, std::span<const Direction> directions) {
       }
       const bool known = std::any_of(numbers.begin(), numbers.end(),
                                      [&](const RigNumber& n) { return n.number == moved.number; });
-      if (!known) {
+      if (!known && !IsDelivery(rig, moved.number)) {
         return name +
                " is not the address of a differentiable number of the rig, must be one of "
                "DifferentiableNumbers";

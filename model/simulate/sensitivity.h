@@ -9,6 +9,8 @@
 //     no initial pressure, operating pressure or source pressure, which are absolute.
 //   * a number that two parts share in life moves as the sum of its derivatives.
 //   * a command's time moves that command, and its stroke's times, which count from it.
+// A value of the table by which a reservoir's pump delivers may be one, too, though the list leaves
+// it out: the table's slopes move with its values.
 // Times of events move as the implicit function theorem says: dt/dθ = −(∂g/∂θ)/(dg/dt) for the
 // guard g that turned there. Commands that fall together keep their own derivatives.
 //

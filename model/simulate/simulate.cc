@@ -37,13 +37,13 @@ Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) 
 }
 
 // The rig and the options of a full stroke (simulate.h): all groups obey one command at time 0,
-// from ambient pressure when they inflate and from the operating pressure when they deflate.
+// from where they rest when they inflate and from the operating pressure when they deflate.
 Rig StrokeRig(Rig rig, ValveState state) {
   const bool inflate = state == ValveState::kInflate;
   if (!inflate) rig.source = NoSource{};
   for (GroupRig& group : rig.groups) {
     group.initial_pressure_pa =
-        inflate ? rig.ambient.pressure_pa : group.chamber.operating_pressure_pa;
+        inflate ? RestPa(group.chamber) : group.chamber.operating_pressure_pa;
     group.schedule.clear();
     if (!(inflate ? group.fill : group.exhaust).empty()) group.schedule = {{0.0, state}};
   }

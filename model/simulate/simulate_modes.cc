@@ -22,7 +22,8 @@ std::optional<T> System<T>::KinkRatio(const Group& group, std::size_t line, cons
   const bool plain = group.units.empty();
   const T tail = plain ? y[group.at] : group.moment.tail_pa;
   const Line<T>& flow = group.lines[line];
-  if (line == kExhaust) return flow.RatioOf(tail, exhaust_pa_);
+  if (line == kExhaust)
+    return flow.RatioOf(tail, exhaust_pa_[static_cast<std::size_t>(&group - groups_.data())]);
   const T source = SourcePressure(t, y);
   const T head = group.lines[kFeed].empty() ? source : group.moment.head_pa;
   if (line == kFeed) {
@@ -123,7 +124,7 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
         values[k] = guard.sign * (guard.level - y[source_]) / kReferencePressurePa;
         break;
       case GuardKind::kPumpDemand: {
-        values[k] = Delivery(pump_limit_pa_);
+        values[k] = Delivery(pump_limit_pa());
         for (const Group& drawing : groups_) {
           values[k] -= drawing.count * drawing.moment.draw_m3_per_s;
         }

@@ -42,6 +42,7 @@ struct GroupRig {
       schedule;  // times not falling; before the first command the valve holds. Commands before 0
                  // set the valve's position at the start and make no stroke
   bool close_at_operating = false;  // an inflating valve closes when p_op is reached
+  bool close_at_low = false;        // a deflating one when the chamber's low pressure is
   double initial_pressure_pa = kReferencePressurePa;
   double initial_temperature_k = 0.0;  // matters to heat_transfer alone; 0: the ambient's
   bool blocked = false;                // the volume stays at the rest volume
@@ -50,6 +51,12 @@ struct GroupRig {
   std::size_t inlet_after = 0;
   std::vector<Effect> effects;
   Told told;
+};
+
+// Always open between the actuators of two groups, each of one actuator and not mirrored.
+struct Link {
+  std::size_t from = 0, to = 0;         // groups
+  std::vector<FlowElement> fill, back;  // in the order crossed from `from` to `to`, and back
 };
 
 struct NoSource {};
@@ -97,7 +104,14 @@ struct Rig {
   double exhaust_pressure_pa = 0.0;  // what lines open into when they deflate; 0: the ambient's
   Source source;
   std::vector<GroupRig> groups;
+  std::vector<Link> links = {};  // of gas that is not dense
 };
+
+// What a group deflates into: its own pressure, the rig's, or the ambient one.
+inline const double& ExhaustOf(const Rig& rig, const GroupRig& group) {
+  if (group.chamber.exhaust_pressure_pa > 0.0) return group.chamber.exhaust_pressure_pa;
+  return rig.exhaust_pressure_pa > 0.0 ? rig.exhaust_pressure_pa : rig.ambient.pressure_pa;
+}
 
 // Whether it holds gas from kDenseFromPa (flow/dense_gas.h) on.
 bool IsDense(const Rig& rig);

@@ -171,8 +171,9 @@ void Run<T, Stepper>::Command(std::size_t group, const ValveCommand& command) {
   const bool inflate = command.state == ValveState::kInflate;
   const double fraction = inflate ? options_.rise_fraction : options_.fall_fraction;
   const GroupSetup<T>& setup = system_.setup(group);
-  valve.target_pa = setup.ambient_pressure_pa +
-                    fraction * (setup.operating_pressure_pa - setup.ambient_pressure_pa);
+  const double low_pa = rig_.groups[group].chamber.low_pressure_pa;
+  const T rest_pa = inflate || low_pa == 0.0 ? setup.ambient_pressure_pa : T(low_pa);
+  valve.target_pa = rest_pa + fraction * (setup.operating_pressure_pa - rest_pa);
   valve.target_pending = true;
   valve.operating_pending = inflate;
 }
@@ -307,8 +308,8 @@ bool Run<T, Stepper>::TakeEvent(std::size_t event) {
     }
     case GuardKind::kOperating:
       y_[system_.pressure(guard.group)] = guard.level;
-      ReachOperating(guard.group);
-      return rig_.groups[guard.group].close_at_operating;
+      CheckTargets(guard.group);
+      return guard.sign < 0.0 || rig_.groups[guard.group].close_at_operating;
     case GuardKind::kPumpLimit:
       y_[*system_.source_state()] = guard.level;
       return true;
@@ -333,6 +334,9 @@ void Run<T, Stepper>::AddGuards() {
     if (valve.operating_pending) {
       guards.push_back({GuardKind::kOperating, i, 0, 1.0, system_.setup(i).operating_pressure_pa});
     }
+    const GroupRig& rig = rig_.groups[i];
+    if (sign < 0.0 && rig.close_at_low)
+      guards.push_back({GuardKind::kOperating, i, 0, sign, T(rig.chamber.low_pressure_pa)});
   }
   const PumpState pump = system_.pump();
   if (pump == PumpState::kRunning || pump == PumpState::kStopped) {
@@ -372,29 +376,31 @@ void Run<T, Stepper>::CheckTargets(std::size_t group) {
   }
   // Equal groups reach their pressure in the same step, apart by rounding.
   const double operating_pa = ValueOf(system_.setup(group).operating_pressure_pa);
-  if (inflating && pressure_pa >= operating_pa * (1.0 - 1e-13)) ReachOperating(group);
+  if (inflating && pressure_pa >= operating_pa * (1.0 - 1e-13)) ReachEnd(group);
+  const double low_pa = rig_.groups[group].chamber.low_pressure_pa * (1.0 + 1e-13);
+  if (!inflating && rig_.groups[group].close_at_low && pressure_pa <= low_pa) ReachEnd(group);
 }
 
+// At the operating pressure; a valve that deflates, at the low pressure.
 template <class T, class Stepper>
-void Run<T, Stepper>::ReachOperating(std::size_t group) {
+void Run<T, Stepper>::ReachEnd(std::size_t group) {
   Valve& valve = valves_[group];
   StrokeOf<T>& stroke = StrokeOfValve(valve);
-  if (valve.target_pending && y_[system_.pressure(group)] >= valve.target_pa) {
-    stroke.to_target_s = CrossingTime(group, valve.target_pa) - stroke.command_s;
-    valve.target_pending = false;
-  }
-  const T reached_s = CrossingTime(group, system_.setup(group).operating_pressure_pa);
+  const bool inflating = valve.state == ValveState::kInflate;
+  const T reached_s =
+      CrossingTime(group, inflating ? system_.setup(group).operating_pressure_pa
+                                    : T(rig_.groups[group].chamber.low_pressure_pa));
   if (valve.operating_pending) stroke.to_operating_s = reached_s - stroke.command_s;
   valve.operating_pending = false;
-  if (!rig_.groups[group].close_at_operating) return;
+  if (inflating && !rig_.groups[group].close_at_operating) return;
   valve.stroke = -1;
   valve.state = ValveState::kHold;
   const T close_s = reached_s + system_.valve_delay_s(group);
-  if (close_s > t_s_) {
+  Opening<T>& opening = inflating ? system_.filling(group) : system_.venting(group);
+  if (close_s > t_s_)  // with effects, and so inflating
     valve.close_at_s = close_s;
-  } else {
-    SwitchAt(group, close_s, [&] { system_.filling(group).Turn(close_s, 0.0); });
-  }
+  else
+    SwitchAt(group, close_s, [&] { opening.Turn(close_s, 0.0); });
 }
 
 // Now, with the derivatives of the instant at which the group itself came to the level: groups that

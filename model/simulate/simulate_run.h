@@ -72,7 +72,8 @@ class Run {
   void Command(std::size_t group, const ValveCommand& command);
   // Strokes are kept, or close the valve at their end.
   bool FollowsStrokes(std::size_t group) const {
-    return options_.record == Record::kAll || rig_.groups[group].close_at_operating;
+    return options_.record == Record::kAll || rig_.groups[group].close_at_operating ||
+           rig_.groups[group].close_at_low;
   }
   void Move(std::size_t group, ValveState state, const T& at_s);
   T NextBoundary() const;
@@ -85,7 +86,7 @@ class Run {
 
   void AddGuards();
   void CheckTargets(std::size_t group);
-  void ReachOperating(std::size_t group);
+  void ReachEnd(std::size_t group);
   T CrossingTime(std::size_t group, const T& level_pa) const;
   void ChoosePumpState();
   bool CloseSettledValves();

@@ -22,6 +22,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // states: a tenth of the room keeps a line of 0.1 m within 0.1 % RMS there at a tolerance of 1e-6.
 constexpr double kHiddenRoom = 1e3, kInletRoom = 1e2;
 
+// Or the end of the pump's table, where that is lower.
+template <class T>
+T StopPressure(const ReservoirSource& source, const Lift& lift) {
+  const double highest_pa = HighestPressure(source.compressor);
+  return source.stop_pressure_pa < highest_pa ? lift.operator()<T>(source.stop_pressure_pa)
+                                              : T(highest_pa);
+}
+
 }  // namespace
 
 template <class T>
@@ -29,13 +37,10 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
     : rig_(rig),
       ambient_pa_(lift.operator()<T>(rig.ambient.pressure_pa)),
       ambient_k_(lift.operator()<T>(rig.ambient.temperature_k)),
-      exhaust_pa_(rig.exhaust_pressure_pa > 0.0 ? lift.operator()<T>(rig.exhaust_pressure_pa)
-                                                : ambient_pa_),
       regulated_(std::get_if<RegulatedSource>(&rig.source)),
       reservoir_(std::get_if<ReservoirSource>(&rig.source)),
       driven_(std::get_if<DrivenSource>(&rig.source)),
       line_options_{lines.linear_ratio, MirrorPa(rig.groups.front().chamber), lines.tolerance},
-      pump_limit_pa_(-kInfinity),
       account_(account) {
   using std::sqrt;
   content_rate_ = kReferencePressurePa * ambient_k_ / kReferenceTemperatureK;
@@ -55,7 +60,8 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
     supply_.pumps = pumps->compressor_count;
     supply_.duty = duty_ = lift.operator()<T>(pumps->duty);
     supply_.node_pa = ambient_pa_;
-    supply_.pressure_pa = pump_limit_pa_ = T(HighestPressure(pumps->compressor));
+    supply_.pressure_pa = T(HighestPressure(pumps->compressor));
+    pump_table_ = PumpTable<T>(supply_.pressure_pa);
     node_at_supply_ = false;
   }
   if (driven_) {
@@ -70,19 +76,19 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
                                : reservoir_volume_m3_;
     duty_ = lift.operator()<T>(reservoir_->duty);
     if (!reservoir_->compressor.free_air_m3_per_s.empty()) {
-      const double highest_pa = HighestPressure(reservoir_->compressor);
-      pump_limit_pa_ = reservoir_->stop_pressure_pa < highest_pa
-                           ? lift.operator()<T>(reservoir_->stop_pressure_pa)
-                           : T(highest_pa);
+      pump_table_ = PumpTable<T>(reservoir_->compressor.free_air_m3_per_s,
+                                 StopPressure<T>(*reservoir_, lift), lift);
       pump_ = PumpState::kRunning;
     }
   }
   groups_.reserve(rig.groups.size());
   for (const GroupRig& group : rig.groups) {
     groups_.push_back(MakeGroup(group, lift, factor));
+    exhaust_pa_.push_back(lift.operator()<T>(ExhaustOf(rig, group)));
     for (const auto& unit : groups_.back().units)
       if (!source_unit_ && unit->acts_on_source()) source_unit_ = unit.get();
   }
+  passages_ = {rig.links, factor, line_options_, lift};
   LayOut();
 }
 
@@ -138,7 +144,7 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
   group.valve[kFill].count = group.valve[kExhaust].count = rig.inlet_after;
   if (!rig.exhaust.empty()) group.valve[kExhaust].first = rig.exhaust.size() - rig.inlet_after;
   group.told = {rig.told, setup.valve_delay_s};
-  if (group.told.stretches()) group.settles = false;
+  if (group.told.stretches() || !rig_.links.empty()) group.settles = false;
   group.lines = {Line<T>(setup.fill, line_options_), Line<T>(setup.exhaust, line_options_),
                  Line<T>(setup.feed, line_options_)};
   return group;
@@ -250,18 +256,9 @@ bool System<T>::Moving(std::size_t i, double time_s) const {
          (open && group.told.Turning(time_s));
 }
 
-// A pump's table as far as the limit; past the limit, where only trial stages go, it runs on
-// without a kink. Error control and dense output would not notice one in the part that is cut off.
-template <class T>
-T System<T>::AlongTable(const MonotoneCurve& table, const T& source_pa) const {
-  if (source_pa < table.front()) return T(table.y().front());
-  if (table.back() < pump_limit_pa_ && source_pa > table.back()) return T(table.y().back());
-  return CurveAt(table, source_pa);
-}
-
 template <class T>
 T System<T>::Delivery(const T& source_pa) const {
-  return AlongTable(reservoir_->compressor.free_air_m3_per_s, source_pa) *
+  return pump_table_.Delivery(reservoir_->compressor.free_air_m3_per_s, source_pa) *
          static_cast<double>(reservoir_->compressor_count) * duty_;
 }
 
@@ -270,7 +267,7 @@ T System<T>::PumpPower(const T& source_pa) const {
   const CompressorCurve& curve = reservoir_ ? reservoir_->compressor : *supply_.pump;
   if (curve.current_a.empty()) return T(0.0);
   const double pumps = reservoir_ ? reservoir_->compressor_count : supply_.pumps;
-  return AlongTable(curve.current_a, source_pa) * (curve.voltage_v * pumps);
+  return pump_table_.Along(curve.current_a, source_pa) * (curve.voltage_v * pumps);
 }
 
 template <class T>
@@ -281,7 +278,7 @@ bool System<T>::source_may_rise(double source_pa) const {
 template <class T>
 T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
   const Group& group = groups_[i];
-  if (group.venting.end > 0.0) return exhaust_pa_ + group.lines[kExhaust].cracking_pressure_pa();
+  if (group.venting.end > 0.0) return exhaust_pa_[i] + group.lines[kExhaust].cracking_pressure_pa();
   const T& highest_pa = supply_.pump ? supply_.pressure_pa : source_pa;
   const T behind_pa = highest_pa - group.lines[kFill].cracking_pressure_pa();
   return supply_.regulator ? T(behind_pa - supply_.regulator->cracking_pressure_pa()) : behind_pa;
@@ -318,6 +315,7 @@ void System<T>::FillMoment(Group& group, const T& t, const T& source_pa,
 // be on its straight line near equal pressures, which a series of both does not know.
 template <class T>
 bool System<T>::TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const {
+  if (supply_.pump) return !account_ && !dense_ && TakeGivenFlow(supply_, outlet, flow);
   const Group& group = groups_[outlet.group];
   const T share_max = T(supply_.flow_max_m3_per_s) / outlet.copies;
   flow = share_max;
@@ -365,11 +363,11 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     Moment<T>& m = group.moment;
     const OpenWay<T> filling = WayOf(group, kFill, t), venting = WayOf(group, kExhaust, t);
     if (venting.share > 0.0) {
-      const Line<T>& out = *venting.line;
-      m.line_out_m3_per_s =
-          IsZero(T(venting.share - 1.0))
-              ? out.Flow(m.tail_pa, exhaust_pa_, venting.regime)
-              : out.ThrottledFlow(venting.share, group.setup.exhaust_fixed, m.tail_pa, exhaust_pa_);
+      const T& to_pa = exhaust_pa_[i];
+      m.line_out_m3_per_s = IsZero(T(venting.share - 1.0))
+                                ? venting.line->Flow(m.tail_pa, to_pa, venting.regime)
+                                : venting.line->ThrottledFlow(
+                                      venting.share, group.setup.exhaust_fixed, m.tail_pa, to_pa);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
       if (dense_)
         m.line_out_m3_per_s *= Thinness(group.setup.dense, m.tail_pa, m.tail_temperature_k);
@@ -393,9 +391,8 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   T in_series;
   bool solved = false;
   if (!node_at_supply_) {
-    solved = !supply_.pump && outlets_.size() == 1 && TakeFlowInSeries(outlets_[0], in_series);
-    if (!solved) node_pa = NodePressure<T>(supply_, outlets_);
-    if (supply_.pump) supply_.node_pa = node_pa;
+    solved = outlets_.size() == 1 && TakeFlowInSeries(outlets_[0], in_series);
+    if (!solved) supply_.node_pa = node_pa = NodePressure<T>(supply_, outlets_);
   }
   const T thinness = dense_ ? Thinness(&*dense_, source_pa, ambient_k_) : T(1.0);
   for (const NodeOutlet<T>& outlet : outlets_) {
@@ -430,11 +427,13 @@ void System<T>::Balance(Group& group, std::span<const T> y, std::span<T> dydt) c
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     group.units[u]->AfterFlow(setup, y.data() + group.unit_at[u], m);
   }
+  const T heat_in = kContentPerKelvin * ambient_k_ * m.in_m3_per_s + m.passed.heat_w;
+  m.in_m3_per_s += m.passed.in_m3_per_s;
+  m.out_m3_per_s += m.passed.out_m3_per_s;
   const double kappa = m.heat_capacity_ratio;
   // Of evacuated actuators the lack of gas, below 0.
   const T gas_pa = m.pressure_pa - line_options_.mirror_pa;
   const T capacity = m.volume_m3 + kappa * gas_pa * m.volume_slope_m3_per_pa;
-  const T heat_in = kContentPerKelvin * ambient_k_ * m.in_m3_per_s;
   const T heat_out = kContentPerKelvin * m.temperature_k * m.out_m3_per_s;
   const T push = kappa * (heat_in - heat_out - gas_pa * m.volume_rate_m3_per_s) +
                  (kappa - 1.0) * m.wall_heat_w;
@@ -465,6 +464,7 @@ void System<T>::Balance(Group& group, std::span<const T> y, std::span<T> dydt) c
 template <class T>
 void System<T>::operator()(const T& t, std::span<const T> y, std::span<T> dydt) {
   const T draw = Draw(t, y);
+  passages_.Pass(ambient_k_, groups_);
   for (Group& group : groups_) Balance(group, y, dydt);
   SourceRates(draw, y, dydt);
 }
@@ -529,14 +529,14 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
   if (m.line_out_m3_per_s > 0.0) {
     if (!(group.venting.At(t) < 1.0) && !group.told.turns())
       return PressureBehind(setup.exhaust, group.valve[kExhaust].first, m.line_factor,
-                            setup.exhaust_fixed, m.tail_pa, exhaust_pa_, line_options_);
+                            setup.exhaust_fixed, m.tail_pa, exhaust_pa_[i], line_options_);
     const Line<T> tube(exhaust.first(group.valve[kExhaust].first), line_options_);
     if (tube.empty()) return m.tail_pa;
     T flow = m.line_out_m3_per_s / m.line_factor;
     if (group.heated) flow /= sqrt(ambient_k_ / m.tail_temperature_k);
     flow /= Thinness(setup.dense, m.tail_pa, m.tail_temperature_k);
     const auto out = [&](const T& inlet_pa) { return tube.Flow(m.tail_pa, inlet_pa); };
-    return PressureAt<T>(out, flow, exhaust_pa_, m.tail_pa);
+    return PressureAt<T>(out, flow, exhaust_pa_[i], m.tail_pa);
   }
   return m.tail_pa;
 }

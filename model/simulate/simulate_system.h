@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "model/effects/unit.h"
+#include "model/flow/pump_table.h"
 #include "model/flow/simulate_line.h"
+#include "model/simulate/linked/passages.h"
 #include "model/simulate/opening.h"
 #include "model/simulate/regulator_node.h"
 #include "model/simulate/simulate_rig.h"
@@ -65,7 +67,8 @@ class System {
 
   // Places in the state vector.
   std::size_t pressure(std::size_t group) const { return groups_[group].at; }
-  // Of pumps without a reservoir that of the moment (regulator_node.h).
+  // Of pumps without a reservoir that of the moment (regulator_node.h); where they deliver the same
+  // at any pressure, which nothing then depends on, that of the last Look.
   T SourcePressure(const T& t, std::span<const T> y) const;
   // At the head of the group's line, and which state that is, if it is one.
   T HeadPressure(std::size_t group, const T& t, std::span<const T> y) const;
@@ -91,7 +94,7 @@ class System {
 
   PumpState pump() const { return pump_; }
   void set_pump(PumpState pump) { pump_ = pump; }
-  const T& pump_limit_pa() const { return pump_limit_pa_; }  // stop pressure or end of the table
+  const T& pump_limit_pa() const { return pump_table_.limit_pa(); }
   bool has_source() const { return regulated_ || reservoir_ || driven_ || supply_.pump; }
   bool has_reservoir() const { return reservoir_ != nullptr; }
 
@@ -115,7 +118,14 @@ class System {
 
   // One actuator of the group, as the last call of Look, Draw or () left it.
   const Moment<T>& moment(std::size_t group) const { return groups_[group].moment; }
-  void Look(const T& t, std::span<const T> y) { (*this)(t, y, scratch_); }  // at the state
+  void Look(const T& t, std::span<const T> y) {  // at the state
+    (*this)(t, y, scratch_);
+    if (!supply_.pump || outlets_.empty()) return;
+    supply_.node_pa = NodePressure<T>(supply_, outlets_);  // a flow that is given needs none
+    for (const NodeOutlet<T>& outlet : outlets_)
+      if (Group& group = groups_[outlet.group]; group.lines[kFeed].empty())
+        group.moment.head_pa = supply_.node_pa;
+  }
   T Reading(std::size_t group, std::span<const T> y) const;  // absolute; of the moment
   bool measured(std::size_t group) const { return groups_[group].measured; }
   bool heated(std::size_t group) const { return groups_[group].heated; }
@@ -168,15 +178,15 @@ class System {
   void LookAhead(const T& t, std::span<const T> y);
   std::optional<T> KinkRatio(const Group& group, std::size_t line, const T& t,
                              std::span<const T> y) const;
-  T AlongTable(const MonotoneCurve& table, const T& source_pa) const;
   T PumpPower(const T& source_pa) const;
 
   const Rig& rig_;
   // Where the gas is too dense to be ideal.
   const std::optional<DenseGas> dense_ =
       rig_.dense ? std::optional<DenseGas>(rig_.gas) : std::nullopt;
-  T ambient_pa_, ambient_k_, exhaust_pa_;
-  T content_rate_;  // Pa·m³ per m³ ANR: P0·T_a/T0
+  T ambient_pa_, ambient_k_;
+  std::vector<T> exhaust_pa_;  // what each group empties into
+  T content_rate_;             // Pa·m³ per m³ ANR: P0·T_a/T0
   const RegulatedSource* regulated_ = nullptr;
   const ReservoirSource* reservoir_ = nullptr;
   const DrivenSource* driven_ = nullptr;
@@ -187,9 +197,10 @@ class System {
   T reservoir_volume_m3_, reservoir_rising_m3_, duty_, driven_factor_, source_initial_pa_,
       regulated_pa_;
   bool node_at_supply_ = true;
-  T pump_limit_pa_;
+  PumpTable<T> pump_table_;
   PumpState pump_ = PumpState::kAbsent;
   std::vector<Group> groups_;
+  Passages<T> passages_;
   std::size_t source_ = 0, pump_accounts_ = 0, dynamic_size_ = 0;
   bool account_;
   bool has_modes_ = false;    // some effect has

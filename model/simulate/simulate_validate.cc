@@ -122,8 +122,31 @@ std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambi
                 static_cast<double>(group.inlet_after), "at most the element count of the line");
   if (group.chamber.evacuated && (!group.effects.empty() || group.inlet_after > 0))
     check.Fails("chamber.evacuated", "goes with no effects and no inlet sensor");
+  if (group.chamber.low_pressure_pa > 0.0 &&
+      (!group.effects.empty() || !group.told.opening.empty()))
+    check.Fails("chamber.low_pressure_pa", "goes with no effects and no told opening");
+  check.Require(!group.close_at_low || group.chamber.low_pressure_pa > 0.0,
+                "chamber.low_pressure_pa", group.chamber.low_pressure_pa,
+                "above 0 with close_at_low");
   CheckSchedule(group, check);
   CheckTold(group, check);
+  return check.reason();
+}
+
+std::string WhyLinkInvalid(const Rig& rig, std::size_t index) {
+  const Link& link = rig.links[index];
+  Check check("links[" + std::to_string(index) + "].");
+  const std::size_t groups = rig.groups.size();
+  if (link.from >= groups || link.to >= groups || link.from == link.to) {
+    check.Fails("from, to", "must be two groups of the rig");
+    return check.reason();
+  }
+  for (const std::size_t group : {link.from, link.to})
+    if (rig.groups[group].count != 1 || rig.groups[group].chamber.evacuated || rig.dense)
+      check.Fails("from, to", "must be single actuators with gas that is not dense, not mirrored");
+  if (link.fill.empty() || link.back.empty()) check.Fails("fill, back", "must hold an element");
+  check.Elements("fill", link.fill);
+  check.Elements("back", link.back);
   return check.reason();
 }
 
@@ -202,6 +225,8 @@ std::string WhyInvalid(const Rig& rig) {
         return "groups[" + std::to_string(i) + "].effects: " + std::string(effect.spec->id) +
                " acts on a source that has a pressure of its own, not on pumps alone";
   }
+  for (std::size_t i = 0; i < rig.links.size(); ++i)
+    if (std::string reason = WhyLinkInvalid(rig, i); !reason.empty()) return reason;
   return {};
 }
 

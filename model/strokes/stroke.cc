@@ -332,9 +332,9 @@ double FillTime(const Series& fill, const Chamber& chamber, double source_pa, do
 
 double EmptyTime(const Series& exhaust, const Chamber& chamber, double from_pa, double to_pa,
                  double temperature_k) {
-  const double ambient_pa = chamber.ambient_pressure_pa;
   if (!chamber.evacuated)
-    return EmptyInto(exhaust, chamber, ambient_pa, from_pa, to_pa, temperature_k);
+    return EmptyInto(exhaust, chamber, ExhaustPa(chamber), from_pa, to_pa, temperature_k);
+  const double ambient_pa = chamber.ambient_pressure_pa;
   const double mirror_pa = MirrorPa(chamber);
   return FillOutOf(exhaust, Unmirrored(chamber), ambient_pa, mirror_pa - from_pa, mirror_pa - to_pa,
                    temperature_k, kNever);

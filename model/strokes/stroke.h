@@ -26,8 +26,8 @@ double FillTime(const Series& fill, const Chamber& chamber, double source_pa, do
                 double to_pa, double temperature_k = kReferenceTemperatureK,
                 double flow_max_m3_per_s = kNever);
 
-// Seconds to empty from `from_pa` down to `to_pa` ≥ ambient through `exhaust` to the chamber's
-// ambient.
+// Seconds to empty from `from_pa` down to `to_pa` through `exhaust` into what the chamber empties
+// into (ExhaustPa()); kNever below that.
 //
 // Of an evacuated chamber (chamber.h) the fill empties it into a rail and the exhaust lets air in
 // from the surroundings; elements stand in the order crossed there, too, and the flow has no cap.

@@ -235,9 +235,9 @@ Enclosure EncloseFillTime(const CurveNodes& nodes, const Chamber& chamber, doubl
 
 Enclosure EncloseEmptyTime(const CurveNodes& nodes, const Chamber& chamber, double from_pa,
                            double to_pa, double temperature_k) {
-  const double ambient_pa = chamber.ambient_pressure_pa;
   if (!chamber.evacuated)
-    return EncloseEmptyInto(nodes, chamber, ambient_pa, from_pa, to_pa, temperature_k);
+    return EncloseEmptyInto(nodes, chamber, ExhaustPa(chamber), from_pa, to_pa, temperature_k);
+  const double ambient_pa = chamber.ambient_pressure_pa;
   const double mirror_pa = MirrorPa(chamber);
   return EncloseFillOutOf(nodes, Unmirrored(chamber), ambient_pa, mirror_pa - from_pa,
                           mirror_pa - to_pa, temperature_k);
@@ -256,10 +256,10 @@ double FillTimeAtMost(std::span<const FlowElement> elements, double flow_factor,
 
 double EmptyTimeAtMost(std::span<const FlowElement> elements, double flow_factor,
                        const Chamber& chamber, double from_pa, double to_pa, double temperature_k) {
-  const double ambient_pa = chamber.ambient_pressure_pa;
   if (!chamber.evacuated)
-    return EmptyIntoAtMost(elements, flow_factor, chamber, ambient_pa, from_pa, to_pa,
+    return EmptyIntoAtMost(elements, flow_factor, chamber, ExhaustPa(chamber), from_pa, to_pa,
                            temperature_k);
+  const double ambient_pa = chamber.ambient_pressure_pa;
   const double mirror_pa = MirrorPa(chamber);
   return FillOutOfAtMost(elements, flow_factor, Unmirrored(chamber), ambient_pa,
                          mirror_pa - from_pa, mirror_pa - to_pa, temperature_k,

@@ -183,11 +183,11 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     // What bottles must hold, at least: of a tank that pumps fill the air of one period.
     const double held_m3 =
         std::max(above_m3 / kRounding - refilling.most_m3, refilled ? cycle_m3 : 0.0);
+    const double open_m3 = inlet.all_none ? air_m3 / kRounding : 0.0;
     double charge_m3 = refilled ? held_m3 : tank ? air_m3 / kRounding : 0.0;
     if (refilled && Node(box, plan_.bottle_slot).single()) charge_m3 += LeftM3(fullest);
     const double air_kg = charge_m3 * model::kReferenceDensityKgPerM3;
-    bound += EnergyShare(refilling.energy_j);
-    bound += problem_.objective.mass_kg * air_kg;
+    bound += EnergyShare(refilling.energy_j) + problem_.objective.mass_kg * air_kg;
     const double share = ShareAt(problem_, plan_, inlet_pa);
     const Amounts all = LeastOfAll(box), counted = fullest.tank.amounts;
     const Amounts others{all.mass_kg - counted.mass_kg + air_kg, all.volume_m3 - counted.volume_m3,
@@ -196,7 +196,7 @@ Constraint Bounds::RestOfRegulated(Box& box) {
         LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
           return c.fill_pressure_pa <= inlet.max_pa &&
                  (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= held_m3 &&
-                 (!tank || GivenM3({problem_, c, fill_max_pa, inlet_pa}) >= held_m3) &&
+                 (!tank || Gives({problem_, c, fill_max_pa, inlet_pa}, held_m3, open_m3)) &&
                  c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz &&
                  WithinLimits(others, c.amounts);
         });

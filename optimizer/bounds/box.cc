@@ -51,20 +51,29 @@ bool Bounds::CoreIsSingle(const Box& box, int except) const {
   return true;
 }
 
-int Bounds::WidestSlot(const Box& box, bool kinds_first) const {
-  // What a pump or a reservoir adds to the others of its source is not in its own share. Fittings
-  // hold back less than valves and tubes do, and by how much they weigh the bound on lines alone
-  // (FindChoices) divides them already.
-  constexpr double kSourceWeight = 300.0, kFittingWeight = 0.125;
+int Bounds::WidestSlot(const Box& box, DivideFor divide_for) const {
+  // What a pump or a reservoir adds to the others of its source is not in its own share, so that it
+  // counts for more, and for something where two weigh the same. Fittings hold back less than
+  // valves and tubes do, and by how much they weigh the bound on lines alone (FindChoices) divides
+  // them already.
+  constexpr double kSourceWeight = 300.0, kTankWeight = 10.0, kFittingWeight = 0.125;
+  constexpr double kSourceShare = 0.05;  // of its objective
+  const bool tanks_early = divide_for != DivideFor::kDesigns && plan_.compressor_slot >= 0;
   // What fills a tank decides no source pressure, and all that comes behind it.
-  const auto decides = [&](int s) { return DecidesSource(s) || s == plan_.compressor_slot; };
+  const auto decides = [&](int s) {
+    return DecidesSource(s) || s == plan_.compressor_slot ||
+           (tanks_early && s == plan_.bottle_slot);
+  };
+  const auto is_source = [&](int s) { return decides(s) && plan_.slots[s].group < 0; };
   const auto weight = [&](int s) {
+    if (s == plan_.bottle_slot) return kTankWeight;
     if (plan_.slots[s].family == Family::kFitting) return kFittingWeight;
-    return decides(s) && plan_.slots[s].group < 0 ? kSourceWeight : 1.0;
+    return is_source(s) ? kSourceWeight : 1.0;
   };
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
-    return (node.objective_high - node.objective_low) * weight(s);
+    const double own = is_source(s) ? kSourceShare * node.objective_low : 0.0;
+    return (node.objective_high - node.objective_low + own) * weight(s);
   };
   const auto wider = [&](int a, int b) {
     return spread(a) != spread(b) ? spread(a) > spread(b)
@@ -74,7 +83,7 @@ int Bounds::WidestSlot(const Box& box, bool kinds_first) const {
   // box (VolumeNeed) until all that decides the source with them is chosen; bottles and batteries
   // are found by what they must bear.
   const auto turn = [&](int s) {
-    if (kinds_first && Node(box, s).series < 0) return 0;
+    if (divide_for == DivideFor::kKinds && Node(box, s).series < 0) return 0;
     return s == plan_.reservoir_slot ? 2 : decides(s) ? 1 : 3;
   };
   int widest = -1;

@@ -48,6 +48,12 @@ struct VolumeNeed {
   int battery = -1;  // node of one that was the least that will do, here or in a larger box
 };
 
+// What a box is divided for, which says what comes first: a design that is soon found, where
+// bottles and batteries come last, by what they must bear; a proof, where tanks that pumps go on
+// filling come before the lines, since what pumps and packs must bear depends on them; or a proof
+// of kinds, where what decides the kind comes before all else.
+enum class DivideFor { kDesigns, kProof, kKinds };
+
 struct Box {
   // Without a place of their own in memory for one group, since boxes are many.
   boost::container::small_vector<int, kSlotsPerGroup + 3> nodes;  // per slot
@@ -127,8 +133,7 @@ class Bounds {
   bool IsSingle(const Box& box) const;
   // The slot to divide: of those that decide the source pressure the one whose choices differ most
   // in their share of the objective, then bottles and batteries.
-  // `kinds_first`: where kinds are listed, what decides the kind before all else.
-  int WidestSlot(const Box& box, bool kinds_first = false) const;
+  int WidestSlot(const Box& box, DivideFor divide_for) const;
   BigCount Count(const Box& box) const;
   // Whether each combination comes behind as many better ones as are wanted, by the choices that
   // dominate its own (dominance.h).

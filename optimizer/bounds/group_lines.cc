@@ -226,11 +226,12 @@ std::vector<LineChoice> GroupLines::LeastBehind(const std::vector<Nodes>& boxes,
   return FrontOf(std::move(all));
 }
 
-std::optional<GroupLines::Nodes> GroupLines::LeastAt(int group, const NodeMeans& most,
+std::optional<GroupLines::Nodes> GroupLines::LeastAt(int group, const NodeMeans& most, double share,
                                                      double source_pa) {
   constexpr Nodes kAll{0, 0, 0};
   LineAsk ask = AskOf(group, kAll);
   ask.most = most;
+  ask.least = {share * most.rise_pa, share * most.inflate_pa};
   ask.source_low_pa = ask.source_high_pa = source_pa;
   const std::vector<LineChoice>& choices = Least(like_[group], kAll, ask);
   if (choices.empty() || choices.front().places[0] < 0) return std::nullopt;

@@ -38,9 +38,9 @@ class GroupLines {
                                       const std::vector<const Line*>& lines, const Window& window,
                                       NodeSource source);
 
-  // The single line of a group with the least objective that makes do with these means at the node
-  // and works at this source pressure, by the leaves of its parts.
-  std::optional<Nodes> LeastAt(int group, const NodeMeans& most, double source_pa);
+  // The single line of a group with the least objective that makes do with these means at the node,
+  // needs this share of one of them, and works at this source pressure, by the leaves of its parts.
+  std::optional<Nodes> LeastAt(int group, const NodeMeans& most, double share, double source_pa);
 
   // The objective has other weights of the amounts, and so have the trees.
   void ChangeWeights();

@@ -7,9 +7,9 @@
 
 namespace plenum::optimizer {
 
-Halves Divide(const Bounds& bounds, const Box& box, bool kinds_first) {
+Halves Divide(const Bounds& bounds, const Box& box, DivideFor divide_for) {
   Halves halves;
-  halves.slot = bounds.WidestSlot(box, kinds_first);
+  halves.slot = bounds.WidestSlot(box, divide_for);
   const std::vector<BoxNode>& tree = *bounds.plan().slots[halves.slot].nodes;
   const BoxNode& divided = tree[box.nodes[halves.slot]];
   halves.middle = tree[divided.right].first;

@@ -17,7 +17,7 @@ struct Halves {
   int slot = 0, middle = 0;
   std::array<Box, 2> boxes;
 };
-Halves Divide(const Bounds& bounds, const Box& box, bool kinds_first = false);
+Halves Divide(const Bounds& bounds, const Box& box, DivideFor divide_for);
 
 // The leaf of a single combination. A made-to-measure reservoir takes a few steps at a time: until
 // it is done there is none, and the box's bound rises. `sizing` is where it stands.

@@ -24,19 +24,23 @@ struct ListedLine {
   std::array<int, kSlotsPerGroup> places{};         // as in LineChoice
 };
 
-// What is asked of a line: which choices, and what there is at the node.
+// What is asked of a line: which choices, and what there is at the node. `least`: what it needs of
+// one of the means or more, so that it takes no more from others than it must.
 struct LineAsk {
   std::array<int, kSlotsPerGroup> first{}, last{};  // half-open, in the orders of the trees
-  NodeMeans most;
+  NodeMeans most, least;
   double source_low_pa = 0.0, source_high_pa = 0.0;  // it works somewhere in between
   bool operator<(const LineAsk& other) const {
-    return std::tie(first, last, most, source_low_pa, source_high_pa) <
-           std::tie(other.first, other.last, other.most, other.source_low_pa, other.source_high_pa);
+    return std::tie(first, last, most, least, source_low_pa, source_high_pa) <
+           std::tie(other.first, other.last, other.most, other.least, other.source_low_pa,
+                    other.source_high_pa);
   }
   bool Admits(const ListedLine& line) const {
     for (int s = 0; s < kSlotsPerGroup; ++s)
       if (line.places[s] < first[s] || line.places[s] >= last[s]) return false;
-    return line.needs.Within(most) && line.source_max_pa >= source_low_pa &&
+    const bool tight =
+        line.needs.rise_pa >= least.rise_pa || line.needs.inflate_pa >= least.inflate_pa;
+    return tight && line.needs.Within(most) && line.source_max_pa >= source_low_pa &&
            line.source_min_pa <= source_high_pa;
   }
 };

@@ -16,7 +16,7 @@ constexpr int kPanels = 16;
 
 double Drawn(const Problem& problem, const Line& line, double pressure_pa) {
   return model::StandardVolume(model::Content(line.chamber, pressure_pa) -
-                                   model::Content(line.chamber, problem.ambient.pressure_pa),
+                                   model::Content(line.chamber, model::RestPa(line.chamber)),
                                problem.ambient.temperature_k);
 }
 
@@ -62,7 +62,7 @@ struct Filled {
 
 Filled FilledUpTo(const Problem& problem, const Line& line, double to_pa) {
   Filled filled;
-  const double from_pa = problem.ambient.pressure_pa;
+  const double from_pa = model::RestPa(line.chamber);
   for (int i = 0; i <= kPanels; ++i) {
     filled.pressure_pa[i] = from_pa + (to_pa - from_pa) * i / kPanels;
     filled.drawn_m3[i] = Drawn(problem, line, filled.pressure_pa[i]);

@@ -42,6 +42,11 @@ void Narrow(const TankAt& at, double cycle_m3, double kept_pa, const Option& cho
 
 double GivenM3(const TankAt& at) { return CapacityM3PerPa(at) * (FillPa(at) - at.inlet_pa); }
 
+bool Gives(const TankAt& at, double air_m3, double open_m3) {
+  const TankAt open{at.problem, at.tank, at.fill_max_pa, LeastSourcePa(at.problem)};
+  return GivenM3(at) >= air_m3 && GivenM3(open) >= open_m3;
+}
+
 double LeftM3(const TankAt& at) {
   return CapacityM3PerPa(at) * (at.inlet_pa - LeastSourcePa(at.problem)) / kRounding;
 }

@@ -16,6 +16,9 @@ struct TankAt {
 
 // What it gives down to the inlet pressure, m³ ANR.
 double GivenM3(const TankAt& at);
+// Whether that is so much, and so much of it, with no regulator behind it, down to the least
+// pressure of any source.
+bool Gives(const TankAt& at, double air_m3, double open_m3);
 // What is left in it then, beyond the least that any tank keeps.
 double LeftM3(const TankAt& at);
 

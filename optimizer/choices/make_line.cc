@@ -81,7 +81,7 @@ bool FallsInTime(const Problem& problem, const ActuatorGroup& group,
   const model::Enclosure enclosure = model::EncloseEmptyTime(
       model::MarchNodes(
           exhaust, factor,
-          model::PressureRatio(model::MirrorPa(chamber), to_pa, chamber.ambient_pressure_pa)),
+          model::PressureRatio(model::MirrorPa(chamber), to_pa, model::ExhaustPa(chamber))),
       chamber, group.chamber.operating_pressure_pa, to_pa, problem.ambient.temperature_k);
   if (enclosure.low_s > limit_s) return false;
   return enclosure.high_s <= limit_s ||

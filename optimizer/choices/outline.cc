@@ -101,7 +101,7 @@ class Sketch {
     coils_j_ += problem_.actuations * coil_s * group.count * coil_w;
     const model::Chamber& chamber = group.chamber;
     const double content = model::Content(chamber, chamber.operating_pressure_pa) -
-                           model::Content(chamber, problem_.ambient.pressure_pa);
+                           model::Content(chamber, model::RestPa(chamber));
     air_m3_ += problem_.actuations * group.gait.strokes_per_period * group.count *
                model::StandardVolume(content, problem_.ambient.temperature_k);
   }

@@ -209,6 +209,14 @@ model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidat
   return model::FillFromPumps(input);
 }
 
+double HoldingEnergy(const Problem& problem, const Candidate& candidate, const FedSquad& fed,
+                     double filling_s) {
+  const double held_s = fed.Seconds(PumpsHoldOn(problem), filling_s) - filling_s;
+  return held_s * candidate.compressor.quantity *
+         model::ElectricalPower(ChosenPump(problem, candidate).curve,
+                                problem.groups[fed.squad.group].chamber.operating_pressure_pa);
+}
+
 OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate) {
   OperatingPoint point{problem.ambient.pressure_pa};
   for (const FedSquad& fed : FedSquadsOf(problem)) {

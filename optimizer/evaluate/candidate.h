@@ -7,6 +7,7 @@
 #include "model/strokes/pump_stroke.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/problem.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
 
@@ -127,7 +128,8 @@ inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
 // Pumps without a reservoir ("direct").
 //
 // The pumps of a feed (pump_feed.h) together fill one squad after another, each from its command
-// until its valve closes at the operating pressure, and are off else (model/strokes/pump_stroke.h).
+// until its valve closes at the operating pressure, and are off else (model/strokes/pump_stroke.h),
+// unless they hold on (pump_feed.h).
 // A squad must be full before the next one's turn: squads of one feed that would fill at once have
 // no such design. Between two strokes only the valve keeps an actuator full, so that it must hold;
 // and since a stroke begins at ambient pressure in front of it, it must switch without any at its
@@ -136,6 +138,10 @@ inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
 // The stroke of so many actuators of the group on one feed.
 model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int group,
                                int count);
+// What the pumps of one feed take in a period to hold what they have filled of a squad for so long
+// in it, J.
+double HoldingEnergy(const Problem& problem, const Candidate& candidate, const FedSquad& fed,
+                     double filling_s);
 // The pressure at which all parts of the lines must stand it; +∞ where some group is never full.
 OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate);
 

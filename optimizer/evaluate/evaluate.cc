@@ -14,6 +14,8 @@
 namespace plenum::optimizer {
 namespace {
 
+constexpr double kDutyRounding = 1.0 + 1e-9;
+
 // Gas on board that reaches the regulator's outlet, m³ ANR.
 double AirAvailable(const Problem& problem, const Candidate& candidate, double source_pa) {
   if (candidate.bottle.index == kNone) return kUnlimited;  // wall supply, or not chosen yet
@@ -64,9 +66,13 @@ template <class T>
 T SourceFrequency(const Problem& problem, const Candidate& candidate,
                   const EvaluationOf<T>& evaluation) {
   if (IsPumped(candidate.configuration)) {
-    T by_duty =
-        problem.frequency_hz * ChosenPump(problem, candidate).duty_max / evaluation.compressor_duty;
+    const double duty_max = ChosenPump(problem, candidate).duty_max;
+    T by_duty = problem.frequency_hz * duty_max / evaluation.compressor_duty;
     if (KeepsReservoir(candidate.configuration)) return by_duty;
+    // Pumps that hold on run for the same share of each period, however long it is.
+    if (PumpsHoldOn(problem) &&
+        model::ValueOf(evaluation.compressor_duty) <= duty_max * kDutyRounding)
+      by_duty = T(kUnlimited);
     return std::min(by_duty, TurnFrequency(problem, evaluation));
   }
   if (candidate.configuration == Configuration::kCo2 && candidate.bottle.index != kNone)

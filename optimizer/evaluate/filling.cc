@@ -28,7 +28,7 @@ const model::Series& Filling::series() {
 }
 
 double Filling::FillTime(double source_pa, double to_pa) {
-  return model::FillTime(series(), chamber_, source_pa, problem_.ambient.pressure_pa, to_pa,
+  return model::FillTime(series(), chamber_, source_pa, model::RestPa(chamber_), to_pa,
                          problem_.ambient.temperature_k, flow_max_m3_per_s_);
 }
 
@@ -49,7 +49,7 @@ const Filling::Enclosures& Filling::Enclose(double source_pa) {
                         model::PressureRatio(model::MirrorPa(chamber_), source_pa, operating_pa_),
                         flow_max_m3_per_s_ / source_pa);
   const auto enclose = [&](double to_pa) {
-    return model::EncloseFillTime(nodes, chamber_, source_pa, problem_.ambient.pressure_pa, to_pa,
+    return model::EncloseFillTime(nodes, chamber_, source_pa, model::RestPa(chamber_), to_pa,
                                   problem_.ambient.temperature_k);
   };
   enclosed_pa_ = source_pa;
@@ -69,8 +69,8 @@ double Filling::InflateTimeAtLeast(double source_pa) { return Enclose(source_pa)
 bool Filling::InTime(double source_pa) {
   const auto most_s = [&](double to_pa) {
     return model::FillTimeAtMost(elements_, flow_factor_, chamber_, source_pa,
-                                 problem_.ambient.pressure_pa, to_pa,
-                                 problem_.ambient.temperature_k, flow_max_m3_per_s_);
+                                 model::RestPa(chamber_), to_pa, problem_.ambient.temperature_k,
+                                 flow_max_m3_per_s_);
   };
   if (const double inflate_s = most_s(operating_pa_);
       inflate_s <= window_s_ && (inflate_s <= rise_max_s_ || most_s(rise_pa_) <= rise_max_s_))

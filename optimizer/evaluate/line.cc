@@ -34,7 +34,7 @@ Amounts operator*(double quantity, const model::PartBasics& basics) {
 
 Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint) {
   if (!joint) return {};
-  return joint->quantity * problem.parts.manifolds[joint->manifold].basics;
+  return joint->quantity * BasicsOf(problem.parts, joint->family, joint->part);
 }
 
 Amounts LineJointShare(const Problem& problem, int group, bool own_regulators) {
@@ -73,7 +73,8 @@ double FlowFactor(const Problem& problem, model::Gas gas) {
 
 double CoilSeconds(const Problem& problem, int group, bool holds) {
   const double window_s = holds ? DeflateWindow(problem, group) : InflateWindow(problem, group);
-  return problem.groups[group].gait.strokes_per_period * window_s;
+  return problem.groups[group].gait.strokes_per_period * window_s +
+         (holds ? HeldOpenSeconds(problem, group) : 0.0);
 }
 
 double CoilSeconds(const Problem& problem, int group, const Line& line) {
@@ -93,7 +94,7 @@ T AirPerStroke(const Problem& problem, int group, const Line& line, const T& fil
   const double value_pa = model::ValueOf(filled_pa);
   const T full = model::Chain(filled_pa, model::Content(line.chamber, value_pa),
                               model::ContentSlope(line.chamber, value_pa));
-  const T content = full - model::Content(line.chamber, problem.ambient.pressure_pa);
+  const T content = full - model::Content(line.chamber, model::RestPa(line.chamber));
   return static_cast<double>(problem.groups[group].count) * content *
          model::StandardVolume(1.0, problem.ambient.temperature_k);
 }

@@ -115,17 +115,17 @@ T AirPerStroke(const Problem& problem, int group, const Line& line, const T& fil
 double LeastAirPerStroke(const Problem& problem, int group, const Line& line);
 
 // How long coils are energised in a period, s, whatever the strokes: a 3/2 while its window lasts,
-// a pair or a proportional valve while it vents.
+// a pair or a proportional valve while it vents, and while pumps that hold on fill and hold.
 double CoilSeconds(const Problem& problem, int group, bool holds);
 double CoilSeconds(const Problem& problem, int group, const Line& line);  // of a box: the least
 double LeastCoilSeconds(const Problem& problem);                          // of any group
 
 // Coil energy of one cycle of the whole group, J: of a pair or a proportional valve also while it
-// inflates, unless it only vents.
+// inflates, unless it only vents or that is counted above.
 template <class T>
 T CoilEnergyPerCycle(const Problem& problem, int group, const Line& line, const T& inflate_time_s) {
   const double strokes = problem.groups[group].gait.strokes_per_period;
-  const bool fills = line.holds && !problem.groups[group].fed_past_valve;
+  const bool fills = line.holds && !problem.groups[group].fed_past_valve && !PumpsHoldOn(problem);
   const T on_s = CoilSeconds(problem, group, line) + (fills ? strokes * inflate_time_s : T(0.0));
   return line.coil_power_w * on_s;
 }

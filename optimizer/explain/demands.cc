@@ -131,6 +131,11 @@ void AddSelection(const Problem& problem, const SearchOptions& options, std::vec
                     std::nullopt});
 }
 
+void AddHoldOn(const Problem& problem, std::vector<Demand>& list) {
+  if (!PumpsHoldOn(problem)) return;
+  list.push_back({"/supply/hold_on", [](Problem& p) { SetPumpsHoldOn(false, p); }, std::nullopt});
+}
+
 template <typename Part>
 void EraseUnpriced(std::vector<Part>& parts) {
   std::erase_if(parts, [](const Part& part) { return !part.basics.cost_eur; });
@@ -173,6 +178,7 @@ std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options
       std::isfinite(problem.compressed_air.flow_max_m3_per_s))
     list.push_back(OfMainsFlow(problem, &Problem::compressed_air));
   add("/supply/");
+  AddHoldOn(problem, list);
   AddPower(problem, options, list);
   AddProducts(problem, options, list);
   AddPrices(problem, list);

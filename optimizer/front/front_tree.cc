@@ -225,7 +225,7 @@ class FrontTree {
   }
 
   void Halve(const Node& node) {
-    Halves halves = optimizer::Divide(*node.bounds, node.box);
+    Halves halves = optimizer::Divide(*node.bounds, node.box, DivideFor::kProof);
     for (Box& half : halves.boxes) {
       auto part = std::make_unique<Node>();
       part->bounds = node.bounds;

@@ -97,7 +97,7 @@ class Walker {
   }
 
   void Divide(const Node& node) {
-    Halves halves = optimizer::Divide(*node.bounds, node.box);
+    Halves halves = optimizer::Divide(*node.bounds, node.box, DivideFor::kProof);
     for (Box& half : halves.boxes) {
       auto part = std::make_unique<Node>();
       part->bounds = node.bounds;

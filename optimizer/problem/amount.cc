@@ -1,9 +1,16 @@
 #include "optimizer/problem/amount.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "optimizer/problem/family_specs.h"
+
 namespace plenum::optimizer {
-namespace {}  // namespace
+namespace {
+
+constexpr double kEurPerKg = 1e-3;  // where unknown prices count as 0
+
+}  // namespace
 
 Objective ObjectiveOn(Amount amount) {
   switch (amount) {
@@ -62,11 +69,20 @@ bool PricesNeeded(const Problem& problem) {
 }
 
 void AllowUnpriced(Problem& problem) {
-  constexpr double kEurPerKg = 1e-3;
   problem.unpriced_allowed = true;
   Objective& objective = problem.objective;
   if (objective.cost_eur > 0.0 && objective.mass_kg == 0.0)
     objective.mass_kg = kEurPerKg * objective.cost_eur;
+}
+
+double TieOf(const Problem& problem) {
+  const double cost = problem.objective.cost_eur;
+  const bool by_price =
+      cost > 0.0 && problem.objective == Objective{kEurPerKg * cost, 0.0, cost, 0.0};
+  const bool made = MadeToMeasureAllowed(problem, Family::kReservoir) &&
+                    std::any_of(problem.configurations.begin(), problem.configurations.end(),
+                                [](Configuration one) { return KeepsReservoir(one); });
+  return by_price && !made ? 1e-9 : 1e-6;
 }
 
 }  // namespace plenum::optimizer

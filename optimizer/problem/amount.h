@@ -26,6 +26,11 @@ bool PricesNeeded(const Problem& problem);
 // first: designs whose known prices differ by less than that may change places.
 void AllowUnpriced(Problem& problem);
 
+// Objectives within this relative distance are ties: 1e-6; 1e-9 where a kilogram counts as a tenth
+// of a cent, as a millionth of a price is many grams, and no reservoir is made to measure, whose
+// volume is not found as finely.
+double TieOf(const Problem& problem);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_PROBLEM_AMOUNT_H_

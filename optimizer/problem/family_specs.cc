@@ -119,6 +119,8 @@ std::vector<FamilySpec> OwnFamilies() {
                               {.place = 9, .joins = true}),
       Spec<&Parts::ejectors>(Family::kEjector, "ejector", kEjectorFields,
                              PumpsIn({kEjector, kDirectEjector})),
+      Spec<&Parts::check_valves>(Family::kCheckValve, "check_valve", kCheckValveFields,
+                                 {.place = 10, .joins = true}),
   };
 }
 

@@ -83,6 +83,19 @@ int FilledAtOnce(const Problem& problem, int group) {
   return most;
 }
 
+int BegunAtOnce(const Problem& problem) {
+  const std::vector<Squad> squads = SquadsOf(problem);
+  int most = 0, at_once = 0;
+  double last = -1.0;
+  for (const Begin& begin : BeginsOf(problem, squads)) {
+    if (begin.at - last > kSame) at_once = 0;
+    at_once += squads[begin.squad].count;
+    most = std::max(most, at_once);
+    last = begin.at;
+  }
+  return most;
+}
+
 double InflateWindow(const Problem& problem, int group) {
   const Gait& gait = problem.groups[group].gait;
   return gait.inflate_fraction / (problem.frequency_hz * gait.strokes_per_period);

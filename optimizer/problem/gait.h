@@ -31,6 +31,9 @@ std::vector<Begin> BeginsOf(const Problem& problem, const std::vector<Squad>& sq
 // Most actuators of the group that fill at once.
 int FilledAtOnce(const Problem& problem, int group);
 
+// Most actuators, of all groups, whose strokes begin at the same time.
+int BegunAtOnce(const Problem& problem);
+
 // Most time, s, that one inflation and one deflation of a group may take.
 double InflateWindow(const Problem& problem, int group);
 double DeflateWindow(const Problem& problem, int group);

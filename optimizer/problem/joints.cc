@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "model/physics/storage.h"
 #include "optimizer/problem/amount.h"
@@ -45,8 +46,8 @@ std::optional<Joint> Lightest(const Problem& problem, int joined, double pressur
     if (!may(rows[i]) ||
         rows[i].sonic_conductance_m3_per_s_pa < std::min(conductance_m3_per_s_pa, most))
       continue;
-    const Joint joint{i, PiecesFor(joined, rows[i])};
-    if (!best || KeyOf(rows[i], joint.quantity) < KeyOf(rows[best->manifold], best->quantity))
+    const Joint joint{Family::kManifold, i, PiecesFor(joined, rows[i])};
+    if (!best || KeyOf(rows[i], joint.quantity) < KeyOf(rows[best->part], best->quantity))
       best = joint;
   }
   return best;
@@ -78,6 +79,41 @@ bool MayBeJoined(Family family) {
   return !spec.in_line && !spec.joins && family != Family::kBattery;
 }
 
+// ── check valves ──
+
+auto RankOf(const model::CheckValve& row) {
+  return std::tuple(!row.basics.cost_eur, row.basics.mass_kg, row.basics.cost_eur.value_or(0.0),
+                    row.basics.id);
+}
+
+model::MonotoneCurve Lowered(const model::MonotoneCurve& curve, double by_pa) {
+  std::vector<double> pressures_pa(curve.x().begin(), curve.x().end());
+  for (double& pressure_pa : pressures_pa) pressure_pa -= by_pa;
+  return {std::move(pressures_pa), {curve.y().begin(), curve.y().end()}};
+}
+
+void Fit(const model::CheckValve* valve, std::vector<model::Compressor>& pumps) {
+  if (!valve)
+    std::erase_if(pumps, [](const model::Compressor& pump) {
+      return pump.check_valve_cracking_pa.has_value();
+    });
+  for (model::Compressor& pump : pumps) {
+    if (!pump.check_valve_cracking_pa ||
+        *pump.check_valve_cracking_pa == valve->cracking_pressure_pa)
+      continue;
+    const double by_pa = valve->cracking_pressure_pa - *pump.check_valve_cracking_pa;
+    model::CompressorCurve& curve = pump.curve;
+    curve.free_air_m3_per_s = Lowered(curve.free_air_m3_per_s, by_pa);
+    if (!curve.current_a.empty()) curve.current_a = Lowered(curve.current_a, by_pa);
+    curve.pressure_max_pa -= by_pa;
+    pump.check_valve_cracking_pa = valve->cracking_pressure_pa;
+  }
+}
+
+void NeedNone(std::vector<model::Compressor>& pumps) {
+  for (model::Compressor& pump : pumps) pump.check_valve_cracking_pa.reset();
+}
+
 }  // namespace
 
 int LineCount(const Problem& problem) {
@@ -89,7 +125,7 @@ int LineCount(const Problem& problem) {
 double JointConductance(const Problem& problem, int g) {
   const ActuatorGroup& group = problem.groups[g];
   const model::Chamber& chamber = group.chamber;
-  const double at_rest_pa = chamber.ambient_pressure_pa;
+  const double at_rest_pa = model::RestPa(chamber);
   const double inside_pa =
       std::abs(model::MirrorPa(chamber) - chamber.operating_pressure_pa);  // as it is
   const double upstream_pa =
@@ -132,6 +168,36 @@ std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int pa
                   drawn_from ? JointConductance(problem) : 0.0);
 }
 
+int CheckValveOf(const Problem& problem, const model::Parts& parts) {
+  double stands_pa = 0.0, passes = 0.0;
+  for (const ActuatorGroup& group : problem.groups) {
+    stands_pa = std::max(stands_pa, group.chamber.operating_pressure_pa);
+    passes = std::max(passes, group.joint_conductance_m3_per_s_pa / group.count);
+  }
+  const std::vector<model::CheckValve>& rows = parts.check_valves;
+  int best = -1;
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    const model::CheckValve& row = rows[i];
+    const bool serves = row.pressure_max_pa >= stands_pa &&
+                        row.sonic_conductance_m3_per_s_pa >= passes &&
+                        (!PricesNeeded(problem) || row.basics.cost_eur);
+    if (serves && (best < 0 || RankOf(row) < RankOf(rows[best]))) best = i;
+  }
+  return best;
+}
+
+void FitCheckValves(const Problem& problem, model::Parts& parts) {
+  if (problem.pump_feed != PumpFeed::kPerActuator) {
+    parts.check_valves.clear();
+    NeedNone(parts.compressors);
+    return NeedNone(parts.vacuum_pumps);
+  }
+  const int index = CheckValveOf(problem, parts);
+  const model::CheckValve* valve = index < 0 ? nullptr : &parts.check_valves[index];
+  Fit(valve, parts.compressors);
+  Fit(valve, parts.vacuum_pumps);
+}
+
 std::vector<Joint> JointsOfFeeds(const Problem& problem, Family family, int part, int quantity) {
   std::vector<Joint> joints;
   const auto add = [&](std::optional<Joint> joint, int times) {
@@ -147,6 +213,9 @@ std::vector<Joint> JointsOfFeeds(const Problem& problem, Family family, int part
     add(Lightest(problem, quantity + 1, group.chamber.operating_pressure_pa,
                  group.joint_conductance_m3_per_s_pa / group.count),
         group.count);
+  if (PumpsIn(problem.parts, family)[part].check_valve_cracking_pa)
+    if (const int valve = CheckValveOf(problem, problem.parts); valve >= 0)
+      joints.push_back({Family::kCheckValve, valve, FeedsOf(problem)});
   return joints;
 }
 
@@ -155,7 +224,7 @@ std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& r
   const auto add = [&](const std::optional<Joint>& joint) {
     if (!joint) return;
     const auto same = std::find_if(joints.begin(), joints.end(), [&](const Joint& other) {
-      return other.manifold == joint->manifold;
+      return other.family == joint->family && other.part == joint->part;
     });
     if (same == joints.end())
       joints.push_back(*joint);

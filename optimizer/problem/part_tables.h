@@ -37,6 +37,8 @@ inline constexpr auto kEjector = &ValueIn<&model::Parts::ejectors, get>;
 template <auto get>
 inline constexpr auto kManifold = &ValueIn<&model::Parts::manifolds, get>;
 template <auto get>
+inline constexpr auto kCheckValve = &ValueIn<&model::Parts::check_valves, get>;
+template <auto get>
 inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
 
 inline bool Holds(const model::Valve& valve) { return model::Holds(valve.kind); }
@@ -261,6 +263,18 @@ inline constexpr PartField kManifoldFields[] = {
     {.name = "pressure_max_kpa_gauge",
      .use = Use::kRule,
      .of = read::kManifold<&model::Manifold::pressure_max_pa>},
+};
+
+inline constexpr PartField kCheckValveFields[] = {
+    {.name = "sonic_conductance_dm3_per_s_bar",
+     .use = Use::kRule,
+     .of = read::kCheckValve<&model::CheckValve::sonic_conductance_m3_per_s_pa>},
+    {.name = "cracking_pressure_kpa_gauge",
+     .use = Use::kRule,
+     .of = read::kCheckValve<&model::CheckValve::cracking_pressure_pa>},
+    {.name = "pressure_max_kpa_gauge",
+     .use = Use::kRule,
+     .of = read::kCheckValve<&model::CheckValve::pressure_max_pa>},
 };
 
 }  // namespace plenum::optimizer

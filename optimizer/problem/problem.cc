@@ -127,8 +127,8 @@ double RiseTarget(const Problem& problem, const ActuatorGroup& group) {
 }
 
 double FallTarget(const Problem& problem, const ActuatorGroup& group) {
-  const double ambient_pa = problem.ambient.pressure_pa;
-  return ambient_pa + problem.fall_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+  const double rest_pa = model::RestPa(group.chamber);
+  return rest_pa + problem.fall_fraction * (group.chamber.operating_pressure_pa - rest_pa);
 }
 
 }  // namespace plenum::optimizer

@@ -44,7 +44,8 @@ enum class Family {
   kTank,  // a reservoir that is filled beforehand
   kVacuumPump,
   kManifold,  // of joints.h: no choice
-  kEjector
+  kEjector,
+  kCheckValve  // as manifolds
 };
 const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
 
@@ -74,6 +75,7 @@ struct ActuatorGroup {
   // Its part of what joins lines should pass (joints.h).
   double joint_conductance_m3_per_s_pa = 0.0;
   bool fed_past_valve = false;  // the valve only vents (pump_feed.h)
+  bool held_by_pumps = false;   // pumps run on while it holds; of all groups or of none
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
@@ -162,6 +164,15 @@ inline bool Evacuated(const Problem& problem) {
   return !problem.groups.empty() && problem.groups.front().chamber.evacuated;
 }
 
+// Whether pumps run on while what they filled holds (pump_feed.h): then all configurations are
+// direct (IsDirect).
+inline bool PumpsHoldOn(const Problem& problem) {
+  return !problem.groups.empty() && problem.groups.front().held_by_pumps;
+}
+inline void SetPumpsHoldOn(bool hold_on, Problem& problem) {
+  for (ActuatorGroup& group : problem.groups) group.held_by_pumps = hold_on;
+}
+
 // What pumps there are to choose from.
 inline Family PumpFamily(Configuration configuration) {
   return IsEjector(configuration)  ? Family::kEjector
@@ -199,7 +210,8 @@ inline void FollowMission(Problem& problem) {
   FollowMission(problem.actuations / problem.frequency_hz, problem.parts);
 }
 
-// Target pressures of a group.
+// Target pressures of a group: shares of the way from ambient to the operating pressure, and back
+// to where it rests.
 double RiseTarget(const Problem& problem, const ActuatorGroup& group);
 double FallTarget(const Problem& problem, const ActuatorGroup& group);
 

@@ -35,11 +35,12 @@
 //        inlet pressure in use, or the highest that a tank is filled to, since a larger one keeps
 //        more at the end.
 //      Where Plan::equal_flow is set, C and b of a line's parts must be equal: several groups on
-//      one source may take air from each other, and a pump may take more energy per air at low
-//      pressure than at high. But for mains they must also be equal of valves that cannot hold, and
-//      where the catalogue has such a valve of fittings and regulators: the more flows while it
-//      stands open the more air it takes. Where valves close late (closing.h of evaluate/; never
-//      with pumps alone) C and b of fittings must be equal, too: the higher is the peak.
+//      one source may take air from each other, a pump may take more energy per air at low pressure
+//      than at high, and pumps that hold on hold what is full sooner the longer. But for mains they
+//      must also be equal of valves that cannot hold, and where the catalogue has such a valve of
+//      fittings and regulators: the more flows while it stands open the more air it takes. Where
+//      valves close late (closing.h of evaluate/; never with pumps alone) C and b of fittings must
+//      be equal, too: the higher is the peak.
 //
 // 2. Boxes. Plan::boxes is the tree of boxes in preorder. A box is a range of choices per slot; the
 //    first box is all of them. kSplit divides the range of one slot at `middle`: the left part,

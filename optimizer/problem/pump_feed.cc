@@ -18,6 +18,26 @@ bool OnOneFeed(const Problem& problem, const Squad& a, const Squad& b) {
          (problem.pump_feed == PumpFeed::kPerGroup && a.group == b.group);
 }
 
+// From one point of the period to a later one, in (0, 1); 0 where they are one.
+double Until(double from, double to) {
+  const double ahead = to - from - std::floor(to - from);
+  return ahead > kSame && ahead < 1.0 - kSame ? ahead : 0.0;
+}
+
+// Of the first of the squads that a feed fills in turn.
+double RunSeconds(const Problem& problem, const std::vector<Squad>& in_turn) {
+  const std::vector<Begin> begins = BeginsOf(problem, in_turn);
+  const double window = InflateWindow(problem, in_turn.front().group) * problem.frequency_hz;
+  double run = 0.0;
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    double until = window;
+    for (std::size_t j = 0; j < begins.size() && begins[i].squad == 0; ++j)
+      if (j != i) until = std::min(until, Until(begins[i].at, begins[j].at));
+    if (begins[i].squad == 0) run += until;
+  }
+  return run / problem.frequency_hz;
+}
+
 }  // namespace
 
 int FeedsOf(const Problem& problem) {
@@ -60,9 +80,18 @@ std::vector<FedSquad> FedSquadsOf(const Problem& problem) {
     const double turn_s =
         std::min(TurnSeconds(problem, in_turn).front(), InflateWindow(problem, squad.group));
     const int feed = problem.pump_feed == PumpFeed::kShared ? 0 : squad.group;
-    fed.push_back({squad, feed, feeds, squad.count / feeds, turn_s});
+    fed.push_back({squad, feed, feeds, squad.count / feeds, turn_s, RunSeconds(problem, in_turn)});
   }
   return fed;
+}
+
+double HeldOpenSeconds(const Problem& problem, int group) {
+  if (!problem.groups[group].held_by_pumps || problem.groups[group].fed_past_valve) return 0.0;
+  double open_s = 0.0;
+  for (const FedSquad& fed : FedSquadsOf(problem))
+    if (fed.squad.group == group)
+      open_s += fed.run_s * fed.squad.count / problem.groups[group].count;
+  return open_s;
 }
 
 bool FeedsMeet(const Problem& problem) {

@@ -17,9 +17,14 @@ constexpr double kQuadrature = 1.0 + 1e-8;  // two computations of one stroke
 
 class Stroke {
  public:
-  Stroke(const Problem& problem, const PumpFacts& facts, const Line& line, int count,
+  Stroke(const Problem& problem, const PumpFacts& facts, const Line& line, const FedSquad& fed,
          double highest_pa)
-      : problem_(problem), facts_(facts), line_(line), count_(count), highest_pa_(highest_pa) {}
+      : problem_(problem),
+        facts_(facts),
+        line_(line),
+        count_(fed.count),
+        highest_pa_(highest_pa),
+        holding_(facts.holding.empty() ? nullptr : &facts.holding[fed.squad.group]) {}
 
   DirectStrokeBound Run(double target_pa) const {
     const double from_pa = problem_.ambient.pressure_pa;
@@ -83,6 +88,8 @@ class Stroke {
     stroke.inflate_s += flow > 0.0 ? air_m3 / flow : kUnlimited;
     const double node_pa = facts_.exact ? NodeAtLeast(low_pa) : low_pa;
     stroke.pump_j += air_m3 * facts_.rates.At(node_pa).energy_j;
+    if (holding_)
+      stroke.beyond_holding_j += air_m3 * holding_->beyond_j_per_m3[facts_.rates.Cell(node_pa)];
   }
 
   const Problem& problem_;
@@ -90,7 +97,15 @@ class Stroke {
   const Line& line_;
   int count_;
   double highest_pa_;
+  const HoldingPump* holding_;
 };
+
+// What pumps of a feed that hold on take in a period for a squad, J, at least.
+double HeldOnEnergy(const PumpFacts& facts, const FedSquad& fed, double strokes,
+                    const DirectStrokeBound& stroke) {
+  return std::max(strokes * stroke.pump_j, fed.run_s * facts.holding[fed.squad.group].power_w +
+                                               strokes * stroke.beyond_holding_j);
+}
 
 }  // namespace
 
@@ -104,13 +119,15 @@ const DirectStrokeBound& DirectBounds::StrokeOf(const PumpFacts& facts, const Li
       known_.try_emplace({&facts, line.strokes, count, chosen ? 0.0 : highest_pa});
   if (!fresh) return entry->second;
   if (!chosen)
-    return entry->second = Stroke(problem_, facts, line, count, highest_pa)
+    return entry->second = Stroke(problem_, facts, line, fed, highest_pa)
                                .Run(RiseTarget(problem_, problem_.groups[g]));
   const model::PumpStroke stroke = DirectStroke(problem_, *chosen, g, count);
-  return entry->second = stroke.reached
-                             ? DirectStrokeBound{stroke.rise_s, stroke.inflate_s,
-                                                 stroke.pump_energy_j, stroke.node_end_pa}
-                             : DirectStrokeBound{kUnlimited, kUnlimited, 0.0, 0.0};
+  if (!stroke.reached) return entry->second = {.rise_s = kUnlimited, .inflate_s = kUnlimited};
+  entry->second = {stroke.rise_s, stroke.inflate_s, stroke.pump_energy_j, stroke.node_end_pa};
+  if (!facts.holding.empty())
+    entry->second.beyond_holding_j =
+        stroke.pump_energy_j - stroke.inflate_s * facts.holding[g].power_w;
+  return entry->second;
 }
 
 std::optional<DirectNeed> DirectBounds::Least(const PumpFacts& facts,
@@ -127,10 +144,12 @@ std::optional<DirectNeed> DirectBounds::Least(const PumpFacts& facts,
     if (stroke.inflate_s > fed.turn_s * slack ||
         stroke.rise_s > problem_.groups[g].rise_time_max_s * slack)
       return std::nullopt;
-    on_s[fed.feed] += strokes * stroke.inflate_s / slack;
-    need.energy_j += strokes * fed.feeds * stroke.pump_j / slack;
+    on_s[fed.feed] += PumpsHoldOn(problem_) ? fed.run_s : strokes * stroke.inflate_s / slack;
+    const double pump_j =
+        PumpsHoldOn(problem_) ? HeldOnEnergy(facts, fed, strokes, stroke) : strokes * stroke.pump_j;
+    need.energy_j += fed.feeds * pump_j / slack;
     const double share = static_cast<double>(fed.squad.count) / problem_.groups[g].count;
-    if (line.all_hold && !problem_.groups[g].fed_past_valve)
+    if (line.all_hold && !problem_.groups[g].fed_past_valve && !PumpsHoldOn(problem_))
       need.energy_j += strokes * share * line.coil_power_w * stroke.inflate_s / slack;
     need.node_pa = std::max(need.node_pa, stroke.node_pa / slack);
   }

@@ -31,6 +31,9 @@ struct DirectNeed {
 
 struct DirectStrokeBound {
   double rise_s = 0.0, inflate_s = 0.0, pump_j = 0.0, node_pa = 0.0;
+  // What filling takes beyond what holding takes for as long: the rest of what pumps take that hold
+  // on is the same for all lines.
+  double beyond_holding_j = 0.0;
 };
 
 // Keeps the strokes that it found: most boxes differ from others in one group's line.

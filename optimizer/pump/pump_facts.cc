@@ -57,6 +57,48 @@ PumpTables MakeTables(const model::CompressorCurve& curve, int pumps, const Divi
   return tables;
 }
 
+double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  double least_w =
+      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
+  for (std::size_t i = 0; i < curve.current_a.x().size(); ++i)
+    if (const double knot_pa = curve.current_a.x()[i]; knot_pa > low_pa && knot_pa < high_pa)
+      least_w = std::min(least_w, curve.voltage_v * curve.current_a.y()[i]);
+  return least_w;
+}
+
+// Of one pump beyond what it takes while it holds. The highest pressure itself is reached.
+std::vector<double> BeyondHolding(const model::CompressorCurve& curve, double holding_w,
+                                  const Division& cells) {
+  const double highest_pa = model::HighestPressure(curve);
+  const bool falls = model::ElectricalPower(curve, highest_pa) < holding_w;
+  std::vector<double> beyond(static_cast<std::size_t>(cells.count), falls ? -kUnlimited : 0.0);
+  if (falls) return beyond;
+  for (int i = 0; i < cells.count; ++i) {
+    const double low_pa = cells.Edge(i), high_pa = std::min(cells.Edge(i + 1), highest_pa);
+    double& most = beyond[static_cast<std::size_t>(i)];
+    most = kNoDelivery;
+    if (low_pa > highest_pa) continue;
+    const double more_w = LeastPower(curve, low_pa, high_pa) - holding_w;
+    const model::MonotoneCurve& flow = curve.free_air_m3_per_s;
+    const double delivery = flow(std::max(flow.front(), more_w < 0.0 ? high_pa : low_pa));
+    if (delivery > 0.0) most = more_w / delivery;
+    if (!(delivery > 0.0) && more_w < 0.0) most = -kUnlimited;
+  }
+  MakeNonFalling(beyond);
+  return beyond;
+}
+
+std::vector<HoldingPump> MakeHolding(const Problem& problem, const model::CompressorCurve& curve,
+                                     int pumps, const Division& cells) {
+  std::vector<HoldingPump> all;
+  if (!PumpsHoldOn(problem)) return all;
+  for (const ActuatorGroup& group : problem.groups) {
+    const double one_w = model::ElectricalPower(curve, group.chamber.operating_pressure_pa);
+    all.push_back({pumps * one_w, BeyondHolding(curve, one_w, cells)});
+  }
+  return all;
+}
+
 PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables) {
   PumpFacts facts;
   facts.target_pa = kUnlimited;
@@ -97,6 +139,7 @@ PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& cu
   PumpFacts facts =
       MakeFacts(problem, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, cells}));
   facts.exact = true;
+  facts.holding = MakeHolding(problem, curve, pumps, {ambient_pa, highest_pa, cells});
   return facts;
 }
 
@@ -112,6 +155,8 @@ CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
   const PumpTables tables =
       MakeTables(curve, 1, {problem.ambient.pressure_pa, highest_pa, kCoarseCells});
   CoarsePump coarse;
+  coarse.holding =
+      MakeHolding(problem, curve, 1, {problem.ambient.pressure_pa, highest_pa, kCoarseCells});
   std::copy_n(tables.energy_j_per_m3.begin(), kCoarseCells, coarse.energy_j_per_m3.begin());
   std::copy_n(tables.seconds_per_m3.begin(), kCoarseCells, coarse.seconds_per_m3.begin());
   std::copy_n(tables.current_a.begin(), kCoarseCells, coarse.current_a.begin());
@@ -121,6 +166,7 @@ CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
 CoarsePump Several(CoarsePump one, int pumps) {
   for (double& seconds : one.seconds_per_m3) seconds /= pumps;
   for (double& current : one.current_a) current *= pumps;
+  for (HoldingPump& holding : one.holding) holding.power_w *= pumps;
   return one;
 }
 
@@ -128,9 +174,11 @@ PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarseP
   const auto table = [](const std::array<double, kCoarseCells>& values) {
     return std::vector<double>(values.begin(), values.end());
   };
-  return MakeFacts(
+  PumpFacts facts = MakeFacts(
       problem, highest_pa,
       {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3), table(coarse.current_a)});
+  facts.holding = coarse.holding;
+  return facts;
 }
 
 }  // namespace plenum::optimizer

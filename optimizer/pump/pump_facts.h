@@ -48,6 +48,7 @@ class PumpRates {
   PumpRates() = default;
   PumpRates(double low_pa, double high_pa, PumpTables tables);
   PerAir At(double pressure_pa) const { return sums_[cells_.Cell(pressure_pa)].value; }
+  std::size_t Cell(double pressure_pa) const { return cells_.Cell(pressure_pa); }
   double CurrentAt(double pressure_pa) const { return current_a_[cells_.Cell(pressure_pa)]; }
   double Delivery(double pressure_pa) const { return PaceAt(pressure_pa).delivery_m3_per_s; }
   struct Pace {
@@ -89,13 +90,23 @@ class PumpRates {
   std::vector<double> current_a_;
 };
 
+// Pumps that hold on take a power P_h while they hold, and P while they fill: for the air that
+// flows while the pressure in front of the lines is p, (P(p) − P_h)/Q(p) beyond P_h all the time.
+// As a step function over the cells of the tables that does not fall and nowhere exceeds that; −∞
+// where the pumps may stand at their highest pressure and take less there than while they hold.
+struct HoldingPump {
+  double power_w = 0.0;
+  std::vector<double> beyond_j_per_m3;
+};
+
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single
 // choice, or from the coarse tables of many: then each number holds for the best of them.
 struct PumpFacts {
   double early_m3 = 0.0;   // the most that they pump during the rise times of a cycle, ANR
   double target_pa = 0.0;  // p_t
   PumpRates rates;
-  bool exact = false;  // of a single choice
+  bool exact = false;                     // of a single choice
+  std::vector<HoldingPump> holding = {};  // actuators of each group; empty: pumps do not hold on
 };
 inline constexpr int kPumpTableCells = 2048;  // of pressure
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps,
@@ -106,6 +117,7 @@ PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& cu
 inline constexpr int kCoarseCells = 32;
 struct CoarsePump {
   std::array<double, kCoarseCells> energy_j_per_m3{}, seconds_per_m3{}, current_a{};
+  std::vector<HoldingPump> holding = {};
 };
 double HighestPumpPressure(const Problem& problem, Configuration configuration);
 CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,

@@ -65,8 +65,7 @@ class BoxSearch {
   bool stopped() const { return watch_.stopped() || steps_ > options_.steps_max; }
   bool Stopped() { return stopped() || watch_.Stopped(); }
 
-  // Plants the configurations that the search has come to, or all where a record is wanted. False
-  // if stopped on the way.
+  // Plants the configurations come to, or all where a record is wanted. False if stopped before.
   bool PlantReached() {
     const auto reached = [&] {
       if (options_.record) return kUnlimited;
@@ -196,9 +195,9 @@ class BoxSearch {
 
   void Divide(Node& node) {
     // As long as a box may hold the best of all its kind is no matter.
-    const bool kinds_first =
-        !ranking_.list().empty() && node.box.bound >= ranking_.list().front().leaf.objective;
-    Halves halves = optimizer::Divide(*node.bounds, node.box, kinds_first);
+    const bool kinds = ranking_.HasAsGoodAs(node.box.bound);
+    Halves halves =
+        optimizer::Divide(*node.bounds, node.box, kinds ? DivideFor::kKinds : DivideFor::kProof);
     const auto [left, right] = recorder_.Split(node.record, halves.slot, halves.middle);
     for (int half : {0, 1}) {
       auto part = std::make_unique<Node>();
@@ -266,8 +265,9 @@ class BoxSearch {
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
     const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
-    SeekFirst(problem_, Due(problem_, configurations_.planted(), slow, sought_), options_,
-              SearchBoxes, watch_, bench_.stop, ranking_);
+    const auto list = [](const auto&... asked) { return ListCombinations(asked...).combinations; };
+    SeekFirst(problem_, Due(problem_, configurations_.planted(), slow, sought_), options_, list,
+              watch_, bench_.stop, ranking_);
   }
 
   // With a third of the time gone good designs are sought by depth first, in case time runs out.

@@ -58,7 +58,7 @@ class Diver {
       if (turns == 0) Try(std::move(box));
       return;
     }
-    const int slot = bounds_.WidestSlot(box);
+    const int slot = bounds_.WidestSlot(box, DivideFor::kDesigns);
     const BoxNode& divided = (*bounds_.plan().slots[slot].nodes)[box.nodes[slot]];
     std::vector<Box> parts;
     for (int child : {divided.left, divided.right}) {

@@ -18,6 +18,7 @@ namespace {
 constexpr double kTurnsShare = 0.15, kFirstShare = 0.1;
 constexpr int kPressures = 12;                             // of the source, that are tried
 constexpr double kNodeShares[] = {0.97, 0.85, 0.7, 0.55};  // of it, at the node
+constexpr double kNeededShares[] = {0.0, 0.9};             // of that, by each line
 constexpr int kRounds = 4;                                 // of improvements
 constexpr int kBoxesBelow = 3000;                          // that are looked at below one box
 constexpr int kSizedInVain = 6;    // designs below one box, one after the other
@@ -69,7 +70,7 @@ void SearchBelow(const Walk& walk, Box box, int wanted) {
       in_vain = found ? 0 : in_vain + 1;
       if ((found && --wanted == 0) || in_vain == kSizedInVain) return;
     } else {
-      Halves halves = Divide(walk.bounds, node->box);
+      Halves halves = Divide(walk.bounds, node->box, DivideFor::kDesigns);
       for (Box& half : halves.boxes)
         if (walk.bounds.Assess(half, halves.slot) == Constraint::kNone)
           push(std::move(half), node->depth + 1);
@@ -78,10 +79,11 @@ void SearchBelow(const Walk& walk, Box box, int wanted) {
 }
 
 // The box of all sources with each group's lightest lines for a source of this pressure that
-// leaves so much of it at the node; false where there are none.
-bool TakeLines(const Walk& walk, double source_pa, double node_pa, Box& box) {
+// leaves so much of it at the node, of lines that need this share of it; false where there are
+// none. Groups with time to spare leave the more to the others the narrower their lines are.
+bool TakeLines(const Walk& walk, double source_pa, double node_pa, double needed, Box& box) {
   for (int g = 0; g < static_cast<int>(walk.problem.groups.size()); ++g) {
-    const auto line = walk.bounds.groups().LeastAt(g, {node_pa, node_pa}, source_pa);
+    const auto line = walk.bounds.groups().LeastAt(g, {node_pa, node_pa}, needed, source_pa);
     if (!line) return false;
     std::copy(line->begin(), line->end(),
               box.nodes.begin() + static_cast<std::ptrdiff_t>(kSlotsPerGroup) * g);
@@ -96,11 +98,13 @@ void TryLines(const Walk& walk, const Box& root) {
     const double source_pa =
         high_pa * std::pow(low_pa / high_pa, static_cast<double>(i) / kPressures);
     for (double share : kNodeShares) {
-      if (walk.stop()) return;
-      Box box = walk.bounds.Root();
-      if (!TakeLines(walk, source_pa, share * source_pa, box)) continue;
-      if (tried.insert({box.nodes.begin(), box.nodes.end()}).second)
-        SearchBelow(walk, std::move(box), 1);
+      for (double needed : kNeededShares) {
+        if (walk.stop()) return;
+        Box box = walk.bounds.Root();
+        if (!TakeLines(walk, source_pa, share * source_pa, needed, box)) continue;
+        if (tried.insert({box.nodes.begin(), box.nodes.end()}).second)
+          SearchBelow(walk, std::move(box), 1);
+      }
     }
   }
 }
@@ -121,10 +125,12 @@ std::vector<Bounds*> Due(const Problem& problem,
                          const std::vector<std::unique_ptr<Bounds>>& planted, bool slow,
                          Sought& sought) {
   std::vector<Bounds*> chosen;
-  if (problem.groups.size() == 1) return chosen;
+  const bool alone = problem.groups.size() == 1;
   for (const std::unique_ptr<Bounds>& bounds : planted) {
-    const bool cheap = StrokesMeet(problem) && !KeepsReservoir(bounds->plan().configuration);
-    if (!bounds->plan().empty() && (cheap || slow) && sought.first.insert(bounds.get()).second)
+    const Configuration configuration = bounds->plan().configuration;
+    const bool cheap = !alone && StrokesMeet(problem) && !KeepsReservoir(configuration);
+    const bool wanted = slow && (!alone || IsCheaperInTurns(problem, configuration));
+    if (!bounds->plan().empty() && (cheap || wanted) && sought.first.insert(bounds.get()).second)
       chosen.push_back(bounds.get());
   }
   return chosen;
@@ -141,8 +147,8 @@ void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::functio
   const Walk walk{problem, bounds, stop, ranking};
   Box root = bounds.Root();
   if (bounds.Assess(root, -1) != Constraint::kNone) return;
-  TryLines(walk, root);
   const int groups = static_cast<int>(problem.groups.size());
+  if (groups > 1) TryLines(walk, root);
   for (int round = 0; round < kRounds && !ranking.list().empty() && !stop(); ++round) {
     if (ranking.list().front().bounds != &bounds) return;
     const double before = ranking.list().front().leaf.objective;
@@ -153,13 +159,13 @@ void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::functio
 }
 
 void SeekFirst(const Problem& problem, const std::vector<Bounds*>& due,
-               const SearchOptions& options, const Solve& solve, Watch& watch,
+               const SearchOptions& options, const ListDesigns& list, Watch& watch,
                const std::function<bool()>& stop, Ranking& ranking) {
   const double turns_share = kTurnsShare / static_cast<double>(due.size());
   SearchOptions own = options;
   own.time_limit_s *= turns_share;
   for (Bounds* bounds : due) {
-    std::vector<Box> likely = LikeInTurns(problem, *bounds, own, solve);
+    std::vector<Box> likely = LikeInTurns(problem, *bounds, own, list);
     watch.DiveFor(turns_share,
                   [&] { SearchLikely(problem, *bounds, std::move(likely), stop, ranking); });
     watch.DiveFor(kFirstShare / static_cast<double>(due.size()),

@@ -24,16 +24,17 @@ struct Sought {
   std::set<const Bounds*> first;  // in the plans of these, first designs
   bool deep = false;              // in all, by depth first
 };
-// In which plans first designs are to be sought now: of several groups, once each. Where a design
-// takes a simulation, or groups do not meet, only once the search has proved slow.
+// In which plans first designs are to be sought now, once each: of several groups, and of one where
+// a look takes a simulation. Where a design takes one, or groups do not meet, only once the search
+// has proved slow.
 std::vector<Bounds*> Due(const Problem& problem,
                          const std::vector<std::unique_ptr<Bounds>>& planted, bool slow,
                          Sought& sought);
 
 // In each of these plans: the boxes that designs in turns suggest (in_turns.h), by the search
-// `solve`, and then as FindFirstDesigns(), for shares of the time limit.
+// `list`, and then as FindFirstDesigns(), for shares of the time limit.
 void SeekFirst(const Problem& problem, const std::vector<Bounds*>& due,
-               const SearchOptions& options, const Solve& solve, Watch& watch,
+               const SearchOptions& options, const ListDesigns& list, Watch& watch,
                const std::function<bool()>& stop, Ranking& ranking);
 
 // Both add what they find to the ranking, until `stop` says so. The first looks into boxes, not

@@ -18,7 +18,7 @@ bool IsOf(const Problem& problem, const Slot& slot, const Option& option, const 
 }
 
 // The leaf of the slot's tree that the design has chosen; the root where the plan lacks it.
-int LeafLike(const Problem& problem, const Slot& slot, const Design& design) {
+int LeafLike(const Problem& problem, const Slot& slot, const Variant& design) {
   const std::vector<Option>& options = *slot.options;
   const auto chosen = std::find_if(options.begin(), options.end(), [&](const Option& option) {
     return std::any_of(design.parts.begin(), design.parts.end(),
@@ -31,7 +31,7 @@ int LeafLike(const Problem& problem, const Slot& slot, const Design& design) {
 }  // namespace
 
 bool IsCheaperInTurns(const Problem& problem, Configuration configuration) {
-  if (!KeepsReservoir(configuration) || problem.groups.size() == 1) return false;
+  if (!KeepsReservoir(configuration)) return false;
   const bool phases =
       std::any_of(problem.groups.begin(), problem.groups.end(),
                   [](const ActuatorGroup& group) { return !group.gait.phases.empty(); });
@@ -45,20 +45,26 @@ Problem InTurns(const Problem& problem, Configuration configuration) {
   turns.configurations = {configuration};
   turns.simultaneous = false;
   turns.count = std::min(problem.count, kListed);
-  int strokes = 1;
-  for (ActuatorGroup& group : turns.groups) {
-    strokes = std::max(strokes, group.gait.strokes_per_period);
-    group.gait = {};
+  double bursts = 1.0;
+  for (ActuatorGroup& group : turns.groups)
+    bursts = std::max<double>(bursts, group.gait.strokes_per_period);
+  if (turns.groups.size() == 1) {
+    ActuatorGroup& group = turns.groups.front();
+    const int at_once = BegunAtOnce(problem);
+    bursts *= static_cast<double>(group.count) / at_once;
+    group.count = at_once;
+    turns.actuations *= bursts;
   }
-  turns.frequency_hz *= strokes;
+  for (ActuatorGroup& group : turns.groups) group.gait = {};
+  turns.frequency_hz *= bursts;
   return turns;
 }
 
 std::vector<Box> BoxesLike(const Problem& problem, const Bounds& bounds,
-                           const std::vector<Design>& designs) {
+                           const std::vector<Variant>& designs) {
   const std::vector<Slot>& slots = bounds.plan().slots;
   std::vector<Box> all, lines, sources;
-  for (const Design& design : designs) {
+  for (const Variant& design : designs) {
     for (std::vector<Box>* boxes : {&all, &lines, &sources}) boxes->push_back(bounds.Root());
     for (std::size_t s = 0; s < slots.size(); ++s) {
       if (static_cast<int>(s) == bounds.plan().battery_slot) continue;
@@ -73,12 +79,12 @@ std::vector<Box> BoxesLike(const Problem& problem, const Bounds& bounds,
 }
 
 std::vector<Box> LikeInTurns(const Problem& problem, const Bounds& bounds, SearchOptions options,
-                             const Solve& solve) {
+                             const ListDesigns& list) {
   const Configuration configuration = bounds.plan().configuration;
   if (!IsCheaperInTurns(problem, configuration)) return {};
   options.record = false;
   options.progress = {};
-  return BoxesLike(problem, bounds, solve(InTurns(problem, configuration), options).designs);
+  return BoxesLike(problem, bounds, list(InTurns(problem, configuration), options));
 }
 
 }  // namespace plenum::optimizer

@@ -164,11 +164,11 @@ bool ByObjective(const Found& a, const Found& b) {
   return a.leaf.objective != b.leaf.objective ? a.leaf.objective < b.leaf.objective : a.key < b.key;
 }
 
-double EndOfTies(double objective) { return objective + kTie * std::abs(objective); }
+double EndOfTies(double tie, double objective) { return objective + tie * std::abs(objective); }
 
 // Orders the run of ties that begins at a place of designs in the order of objectives; its end.
-std::size_t OrderRun(std::vector<Found>& designs, std::size_t first) {
-  const double limit = EndOfTies(designs[first].leaf.objective);
+std::size_t OrderRun(double tie, std::vector<Found>& designs, std::size_t first) {
+  const double limit = EndOfTies(tie, designs[first].leaf.objective);
   std::size_t end = first;
   while (end < designs.size() && designs[end].leaf.objective <= limit) ++end;
   std::sort(designs.begin() + static_cast<std::ptrdiff_t>(first),
@@ -184,10 +184,10 @@ void Ranking::Sort() {
   run_begin_ = run_end_ = kUnlimited;
   for (std::size_t first = 0; first < list_.size();) {
     const double objective = list_[first].leaf.objective;
-    const std::size_t end = OrderRun(list_, first);
+    const std::size_t end = OrderRun(tie_, list_, first);
     if (end >= static_cast<std::size_t>(wanted_)) {
       run_begin_ = objective;
-      run_end_ = EndOfTies(objective);
+      run_end_ = EndOfTies(tie_, objective);
       const auto behind = list_.begin() + static_cast<std::ptrdiff_t>(end);
       std::move(behind, list_.end(), std::back_inserter(spare_));
       list_.erase(behind, list_.end());
@@ -208,7 +208,7 @@ std::vector<Found> Ranking::TakeBestOfKinds() {
     const Found& found = spare_[i];
     const double objective = found.leaf.objective;
     const auto [run, fresh] =
-        kinds_.try_emplace(found.kind, Run{objective, EndOfTies(objective), {}, false});
+        kinds_.try_emplace(found.kind, Run{objective, EndOfTies(tie_, objective), {}, false});
     const auto [place, first] = best.try_emplace(found.kind, i);
     if (objective <= run->second.end && found.key < spare_[place->second].key) place->second = i;
   }
@@ -237,18 +237,18 @@ void Ranking::SortKinds() {
   std::map<Kind::Sources, int> listed;
   for (std::size_t first = 0; first < best.size();) {
     const double objective = best[first].leaf.objective;
-    const std::size_t end = OrderRun(best, first);
+    const std::size_t end = OrderRun(tie_, best, first);
     for (; first < end; ++first) {
       Found& found = best[first];
       int& of_source = listed[found.kind.Source()];
       const bool wanted = !full() && of_source < problem_.per_source;
       if (wanted && ++of_source == problem_.per_source)
-        source_end_[found.kind.Source()] = EndOfTies(objective);
+        source_end_[found.kind.Source()] = EndOfTies(tie_, objective);
       (wanted ? list_ : spare_).push_back(std::move(found));
     }
     if (full() && !(run_end_ < kUnlimited)) {
       run_begin_ = objective;
-      run_end_ = EndOfTies(objective);
+      run_end_ = EndOfTies(tie_, objective);
     }
   }
 }

@@ -13,6 +13,7 @@
 
 #include "optimizer/bounds/box.h"
 #include "optimizer/choices/tie_key.h"
+#include "optimizer/problem/amount.h"
 #include "optimizer/problem/kind.h"
 #include "optimizer/problem/proof.h"
 #include "optimizer/sizing/sizing.h"
@@ -39,7 +40,8 @@ std::optional<Kind> KindAt(const Plan& plan, const Box& box);
 
 class Ranking {
  public:
-  explicit Ranking(const Problem& problem) : problem_(problem), wanted_(problem.count) {}
+  explicit Ranking(const Problem& problem)
+      : problem_(problem), wanted_(problem.count), tie_(TieOf(problem)) {}
 
   void Add(Found found);
   void Remove(std::size_t position);
@@ -50,6 +52,9 @@ class Ranking {
 
   // In order; what ties with the last place comes behind it.
   std::vector<Found>& list() { return list_; }
+  bool HasAsGoodAs(double objective) const {
+    return !list_.empty() && list_.front().leaf.objective <= objective;
+  }
   bool full() const { return static_cast<int>(list_.size()) >= wanted_; }
   const Found& last() const { return list_[wanted_ - 1]; }  // of a full list
   // Of a full list and a box with this earliest key: whether it may hold a design that comes
@@ -89,6 +94,7 @@ class Ranking {
 
   const Problem& problem_;
   int wanted_;
+  double tie_;
   std::vector<Found> list_, spare_;  // spare: beyond the ties of a full list
   double run_begin_ = kUnlimited, run_end_ = kUnlimited;
   std::map<Kind, Run> kinds_;

@@ -10,6 +10,7 @@
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/problem/amount.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/pump_feed.h"
 
@@ -87,8 +88,12 @@ Performance MakePerformance(const Problem& problem, const Evaluation& evaluation
   performance.groups = evaluation.groups;
   performance.frequency_sustained_hz = evaluation.frequency_sustained_hz;
   int actuations = 0;  // of all actuators in a period
-  for (const ActuatorGroup& group : problem.groups)
-    actuations += group.count * group.gait.strokes_per_period;
+  int entry = -1;      // the two chambers of one actuator are groups of one entry
+  for (const ActuatorGroup& group : problem.groups) {
+    if (entry < 0 || group.entry != entry)
+      actuations += group.count * group.gait.strokes_per_period;
+    entry = group.entry;
+  }
   performance.air_per_actuation_m3 = evaluation.air_per_cycle_m3 / actuations;
   performance.air_total_m3 = evaluation.air_total_m3;
   performance.run_time_s = problem.actuations / problem.frequency_hz;
@@ -209,7 +214,7 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
       point.group_pa[g] =
           std::min(point.group_pa[g] * (1.0 + step), GroupWindow(problem, candidate, g).high_pa);
     evaluation = Evaluate(problem, candidate, point);
-    const double most = leaf.objective * (1.0 + 0.5 * kTie);
+    const double most = leaf.objective * (1.0 + 0.5 * TieOf(problem));
     if (evaluation.works && ObjectiveValue(problem, candidate, point, evaluation) > most) break;
     if (Confirm(problem, candidate, point, evaluation)) return point;
   }
@@ -247,8 +252,8 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
         {Family::kReservoir, "custom", -1, 1, amounts.mass_kg, amounts.volume_m3, std::nullopt});
   }
   for (const Joint& joint : JointsOf(problem, parts))
-    parts.push_back(PieceChoice(Family::kManifold, problem.parts.manifolds[joint.manifold].basics,
-                                -1, joint.quantity));
+    parts.push_back(PieceChoice(joint.family, BasicsOf(problem.parts, joint.family, joint.part), -1,
+                                joint.quantity));
   return parts;
 }
 
@@ -274,6 +279,7 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
     point = *near;
   }
   if (RefillsTank(candidate)) evaluation = EvaluateFilled(problem, candidate, point);
+  if (!evaluation.works) return std::nullopt;  // told to stop meanwhile
   Design design = Describe(problem, candidate, point, evaluation);
   design.response = TraceCycle(problem, candidate, point);
   return design;

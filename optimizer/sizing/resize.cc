@@ -10,6 +10,7 @@
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/joints.h"
 #include "optimizer/problem/pump_feed.h"
 #include "optimizer/sizing/effect_sizing.h"
 #include "optimizer/sizing/report.h"
@@ -206,7 +207,9 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
                .tanks = Kept(all.tanks, ids),
                .vacuum_pumps = Kept(all.vacuum_pumps, ids),
                .manifolds = Kept(all.manifolds, ids),
-               .ejectors = Kept(all.ejectors, ids)};
+               .ejectors = Kept(all.ejectors, ids),
+               .check_valves = Kept(all.check_valves, ids)};
+  FitCheckValves(own, own.parts);
   return own;
 }
 

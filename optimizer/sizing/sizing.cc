@@ -106,9 +106,11 @@ class PressureSearch {
     failed_ = failed_ || evaluation.failed;
     if (!(SmallestMargin(problem_, candidate_, point, evaluation) >= 0.0)) return evaluation;
     const OperatingPoint filled = Filled(problem_, candidate_, point, evaluation);
-    const double objective = ObjectiveValue(
-        problem_, candidate_, filled,
-        RefillsTank(candidate_) ? Evaluate(problem_, candidate_, filled) : evaluation);
+    const Evaluation at =
+        RefillsTank(candidate_) ? Evaluate(problem_, candidate_, filled) : evaluation;
+    failed_ = failed_ || at.failed;
+    if (!at.works) return evaluation;
+    const double objective = ObjectiveValue(problem_, candidate_, filled, at);
     if (objective < leaf_.objective) {
       leaf_.objective = objective;
       leaf_.point = filled;

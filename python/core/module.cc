@@ -9,6 +9,7 @@
 #include "api/json/version.h"
 #include "python/core/computations.h"
 #include "python/core/documents.h"
+#include "python/core/measured_parts.h"
 #include "python/core/part_store.h"
 
 namespace plenum::python {
@@ -73,6 +74,36 @@ void DefineCatalogue(py::module_& module) {
   module.def("models", Released<Models, Text>, py::arg("catalogue"));
 }
 
+void DefinePartTests(py::module_& module) {
+  using Text = std::string;
+  module.def(
+      "protocol",
+      [](const Text& catalogue, const Text& id, const std::map<Text, Text>& sensor) {
+        return Released<Protocol, Text, Text, std::multimap<Text, Text>>(
+            catalogue, id, {sensor.begin(), sensor.end()});
+      },
+      py::arg("catalogue"), py::arg("id"), py::arg("sensor"));
+  module.def(
+      "save_part",
+      [](const Text& catalogue, const Text& id, const Text& diagnosis, const Text& specimen,
+         bool anyway, const Text& who) {
+        return Released<SavePart, Text, Text, Text, MeasuredBy>(catalogue, id, diagnosis,
+                                                                {who, specimen, anyway});
+      },
+      py::arg("catalogue"), py::arg("id"), py::arg("diagnosis"), py::arg("specimen"),
+      py::arg("anyway"), py::arg("who"));
+  module.def(
+      "write_measured",
+      [](const Text& catalogue, const Text& id, const std::vector<Text>& readings,
+         const Text& uncertainty, const Text& note, const Text& specimen, bool anyway,
+         const Text& who) {
+        return Released<WriteMeasured, Text, Text, std::vector<Text>, Text, Text, MeasuredBy>(
+            catalogue, id, readings, uncertainty, note, {who, specimen, anyway});
+      },
+      py::arg("catalogue"), py::arg("id"), py::arg("readings"), py::arg("uncertainty"),
+      py::arg("note"), py::arg("specimen"), py::arg("anyway"), py::arg("who"));
+}
+
 void DefineComputations(py::module_& module) {
   using Text = std::string;
   module.def(
@@ -133,5 +164,6 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = std::string(plenum::api::Version());
   pybind11::register_local_exception_translator(plenum::python::TranslateErrors);
   plenum::python::DefineCatalogue(module);
+  plenum::python::DefinePartTests(module);
   plenum::python::DefineComputations(module);
 }

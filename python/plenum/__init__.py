@@ -5,15 +5,15 @@
     designs.plot()
 """
 from ._core import version as __version__
-from .answers import Answer, Design, Designs, Diagnosis, Evaluation, Map, Response, SweepTable, Verification
+from .answers import Answer, Design, Designs, Diagnosis, Evaluation, Map, Protocol, Response, SweepTable, Verification
 from .catalogue import Catalogue
 from .errors import CatalogueError, Error, InputError, ServiceError
-from .local import design, diagnose, evaluate, simulate, simulate_many, sweep, verify
+from .local import design, diagnose, evaluate, protocol, simulate, simulate_many, sweep, verify
 from .local import map as map  # not in __all__: there it would hide the map of Python
 from .service import Service, connect
 
 __all__ = [
     "Answer", "Catalogue", "CatalogueError", "Design", "Designs", "Diagnosis", "Error", "Evaluation", "InputError",
-    "Map", "Response", "Service", "ServiceError", "SweepTable", "Verification", "__version__", "connect", "design",
-    "diagnose", "evaluate", "simulate", "simulate_many", "sweep", "verify",
+    "Map", "Protocol", "Response", "Service", "ServiceError", "SweepTable", "Verification", "__version__", "connect",
+    "design", "diagnose", "evaluate", "protocol", "simulate", "simulate_many", "sweep", "verify",
 ]

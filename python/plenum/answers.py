@@ -233,6 +233,29 @@ class Diagnosis(Answer):
         return plots.residuals(self, ax)
 
 
+class Protocol(Answer):
+    """protocol/1: how a part is measured, and how precise that will be."""
+
+    @property
+    def steps(self) -> list[str]:
+        """What to do, test after test."""
+        return [step for test in self["tests"] for step in test["steps"]]
+
+    @property
+    def precision(self) -> "pd.DataFrame":
+        """A row a number that a test gives, with its uncertainty: relative, one standard deviation."""
+        import pandas as pd
+
+        rows = [{"protocol": test["protocol"], **row} for test in self["tests"] for row in test["precision"]]
+        return pd.DataFrame(rows)
+
+    @property
+    def template(self) -> Optional[dict[str, Any]]:
+        """The rig of the first test that is recorded, for diagnose(recording, rig=template)."""
+        recorded = (test["recording"] for test in self["tests"] if test["recording"])
+        return next((recording["template"] for recording in recorded), None)
+
+
 class Evaluation(Answer):
     """evaluation_answer/1: how a given design does."""
 

@@ -95,6 +95,25 @@ class Catalogue:
             raise InputError([("/revision", "the diagnosis settled on no model")])
         return json.loads(_core.save_model(self.path, name, encode(model), getpass.getuser()))
 
+    def save_part(self, part_id: str, diagnosis: Source, *, specimen: str = "", anyway: bool = False
+                  ) -> dict[str, Any]:
+        """Writes the numbers of a part that a diagnosis found, as a revision; gives what was written, and what was
+        refused and why.
+
+        specimen: the piece of the type that was tested. anyway: numbers that contradict what is known are written, too.
+        """
+        return json.loads(_core.save_part(self.path, part_id, text_of(diagnosis), specimen, anyway, getpass.getuser()))
+
+    def write_measured(self, part_id: str, readings: Mapping[str, Union[str, float]], uncertainty: Union[str, float], *,
+                       how: str = "", specimen: str = "", anyway: bool = False) -> dict[str, Any]:
+        """The same of numbers that were read by hand: write_measured("my-pump", {"mass_kg": "25.3 g"}, "0.5 %").
+
+        uncertainty: relative, one standard deviation, of all. how: in words, by what they were read.
+        """
+        texts = [f"{field}={value}" for field, value in readings.items()]
+        return json.loads(_core.write_measured(self.path, part_id, texts, str(uncertainty), how, specimen, anyway,
+                                               getpass.getuser()))
+
     @property
     def models(self) -> list[dict[str, Any]]:
         """Saved models: name, version, at, who, hash, model."""

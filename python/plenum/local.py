@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Op
 import numpy as np
 
 from . import _core
-from .answers import Designs, Diagnosis, Evaluation, Map, Response, SweepTable, Verification, answer_of
+from .answers import Designs, Diagnosis, Evaluation, Map, Protocol, Response, SweepTable, Verification, answer_of
 from .catalogue import locate
 from .documents import Source, document_of, encode, read_bytes, text_of
 from .errors import InputError
@@ -77,6 +77,16 @@ def evaluate(request: Source, *, catalog: Catalog = None) -> Evaluation:
 def simulate(request: Source, *, catalog: Catalog = None) -> Response:
     """Pressures of one given design over time (simulation/1)."""
     return answer_of(json.loads(_core.simulate(text_of(request), locate(catalog))))
+
+
+def protocol(part: str, *, catalog: Catalog = None, **sensor: float) -> Protocol:
+    """How to measure a part of the catalogue, and how precise that will be with a sensor (protocol/1).
+
+    sensor: sensor_noise_kpa, sensor_resolution_kpa, sampling_hz, bottle_l, bottle_uncertainty; see
+    docs/reference/protocols.md.
+    """
+    texts = {name: str(value) for name, value in sensor.items()}
+    return Protocol(json.loads(_core.protocol(locate(catalog), part, texts)))
 
 
 def simulate_many(requests: Iterable[Source], *, threads: Optional[int] = None, catalog: Catalog = None,
@@ -180,7 +190,8 @@ def with_holdout(documents: list[str], holdout: Sequence[str]) -> list[str]:
 
 
 def diagnose(data: Measured, rig: Optional[Source] = None, *, table: Optional[Mapping[str, Any]] = None,
-             holdout: Sequence[str] = (), model: str = "", time_limit_s: float = 60.0, catalog: Catalog = None, progress: Progress = None) -> Diagnosis:
+             holdout: Sequence[str] = (), model: str = "", time_limit_s: float = 60.0,
+             catalog: Catalog = None, progress: Progress = None) -> Diagnosis:
     """What the model lacks against measured pressures.
 
     data, rig and table: as for measurements(). holdout: runs that no fit may see. model: predict with this saved model,

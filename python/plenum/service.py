@@ -8,7 +8,7 @@ import urllib.parse
 import urllib.request
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Union
 
-from .answers import Designs, Diagnosis, Evaluation, Map, Response, SweepTable, answer_of
+from .answers import Designs, Diagnosis, Evaluation, Map, Protocol, Response, SweepTable, answer_of
 from .catalogue import frame_of
 from .documents import Source, document_of, encode, text_of
 from .errors import InputError, ServiceError
@@ -39,14 +39,21 @@ class Service:
         return Designs(self._job("/v1/designs", encode(request), progress))
 
     def diagnose(self, data: Measured, rig: Optional[Source] = None, *, table: Optional[Mapping[str, Any]] = None,
-                 holdout: Sequence[str] = (), model: str = "", time_limit_s: float = 60.0, save: str = "", progress: Progress = None) -> Diagnosis:
-        """As plenum.diagnose, of one document or table. save: the name under which the service keeps the model."""
+                 holdout: Sequence[str] = (), model: str = "", time_limit_s: float = 60.0, save: str = "",
+                 save_part: str = "", specimen: str = "", save_part_anyway: bool = False,
+                 progress: Progress = None) -> Diagnosis:
+        """As plenum.diagnose, of one document or table. save: the name under which the service keeps the model.
+        save_part: the part whose measured numbers it writes, told in "saved_part"; specimen and save_part_anyway as
+        for Catalogue.save_part.
+        """
         documents, _ = measurements(data, rig, table)
         if len(documents) != 1:
             raise InputError([("data", "a service takes one measurement; join the runs in one document")])
         request = json.loads(with_holdout(documents, holdout)[0])
         request["time_limit_s"] = time_limit_s
-        request.update({name: value for name, value in (("model", model), ("save", save)) if value})
+        request.update({name: value for name, value in (("model", model), ("save", save), ("save_part", save_part),
+                                                        ("save_part_specimen", specimen),
+                                                        ("save_part_anyway", save_part_anyway)) if value})
         return Diagnosis(self._job("/v1/diagnoses", encode(request), progress))
 
     def sweep(self, request: Source, *, progress: Progress = None) -> SweepTable:
@@ -78,6 +85,11 @@ class Service:
 
     def simulate(self, request: Source) -> Response:
         return answer_of(self._post("/v1/simulations", text_of(request)))
+
+    def protocol(self, part: str, **sensor: float) -> Protocol:
+        """As plenum.protocol."""
+        path = f"/v1/parts/{urllib.parse.quote(part, safe='')}/protocol"
+        return Protocol(self._get(path + ("?" + urllib.parse.urlencode(sensor) if sensor else "")))
 
     def simulate_many(self, requests: Iterable[Source]) -> list[Union[Response, InputError]]:
         """One after the other. A request that is refused has its InputError in its place."""

@@ -14,6 +14,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTryEvery = std::chrono::milliseconds(2);
 constexpr std::chrono::milliseconds kLockPatience{100};  // for other processes
 constexpr std::chrono::milliseconds kLeaveAlone{500};    // a file that they keep
+// Whether they write; those of other services at a server, one soon after the other.
+constexpr std::chrono::milliseconds kGlance{4}, kGlanceAtServer{50};
 // Two writes within one tick of the file system's clock leave the same time.
 constexpr std::int64_t kTickNs = 50'000'000;
 
@@ -52,9 +54,31 @@ std::shared_ptr<void> SharedCatalog::TakePlace() {
 }
 
 std::unique_lock<std::timed_mutex> SharedCatalog::AwaitTurn() {
-  std::unique_lock lock(mutex_, kTurnPatience);
+  std::unique_lock lock(turns_.store, kTurnPatience);
   if (!lock) ThrowBusy();
   return lock;
+}
+
+std::unique_lock<std::timed_mutex> SharedCatalog::AwaitWriters() {
+  std::unique_lock lock(turns_.writers, kTurnPatience);
+  if (!lock) ThrowBusy();
+  return lock;
+}
+
+void SharedCatalog::GlanceAtLock() {
+  struct Glance {
+    Glance(catalog::Store& of, std::chrono::milliseconds patience) : store(of) {
+      store.WaitForLocks(patience);
+    }
+    ~Glance() { store.WaitForLocks(kLockPatience); }
+    catalog::Store& store;
+  } const glance(store_, on_server_ ? kGlanceAtServer : kGlance);
+  try {
+    store_.TryToWrite(catalog::Store::Try::kLock);
+  } catch (const catalog::StoreError& error) {  // readers need not find out anew
+    if (error.fault() == catalog::StoreFault::kBusy) ask_again_at_ = Clock::now() + kLeaveAlone;
+    throw;
+  }
 }
 
 std::shared_ptr<const SharedCatalog::Published> SharedCatalog::WhatIsPublished() const {
@@ -64,7 +88,7 @@ std::shared_ptr<const SharedCatalog::Published> SharedCatalog::WhatIsPublished()
 
 std::optional<CatalogView> SharedCatalog::ViewMeanwhile() {
   if (const auto published = WhatIsPublished()) return published->view;
-  const std::unique_lock lock(mutex_, kTurnPatience);
+  const std::unique_lock lock(turns_.store, kTurnPatience);
   const bool kept = lock && view_.table && !has_written_ && Clock::now() < ask_again_at_;
   return kept ? std::optional(view_) : std::nullopt;
 }
@@ -92,7 +116,7 @@ SharedCatalog::Writing::~Writing() { catalog_.store_.WaitForLocks(kLockPatience)
 // `ask` with the store when its turn comes, or `look` at what a long write has published.
 template <typename Ask, typename Look>
 auto SharedCatalog::AskOrLook(Ask ask, Look look) {
-  std::unique_lock lock(mutex_, std::defer_lock);
+  std::unique_lock lock(turns_.store, std::defer_lock);
   const auto until = Clock::now() + kTurnPatience;
   while (!lock.try_lock_for(kTryEvery)) {
     if (const auto published = WhatIsPublished()) return look(*published);

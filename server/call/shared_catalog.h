@@ -4,7 +4,8 @@
 // again. A write that may take seconds lets the others go on reading what it found: the newest
 // revision and the saved models are in memory meanwhile. While another process keeps the file to
 // itself, readers get the revision that was read last, unless this service has written since. Only
-// what needs the file itself (history, older revisions) and writes wait.
+// what needs the file itself (history, older revisions) and writes wait, and those who wait to
+// write hold up no reader.
 #ifndef PLENUM_SERVER_CALL_SHARED_CATALOG_H_
 #define PLENUM_SERVER_CALL_SHARED_CATALOG_H_
 
@@ -73,17 +74,24 @@ class SharedCatalog {
   template <typename F>
   auto With(F&& f, std::chrono::milliseconds patience = kTurnPatience) {
     const auto place = TakePlace();
+    constexpr bool kReads = std::is_invocable_v<F, const catalog::Store&>;
+    const auto among_writers = kReads ? std::unique_lock<std::timed_mutex>() : AwaitWriters();
     return Patiently(patience, [&] {
       const auto turn = AwaitTurn();
-      if constexpr (std::is_invocable_v<F, const catalog::Store&>) return f(std::as_const(store_));
-      const Writing writing(*this, kWritePatience);
-      return f(store_);
+      if constexpr (kReads) {
+        return f(std::as_const(store_));
+      } else {
+        GlanceAtLock();
+        const Writing writing(*this, kWritePatience);
+        return f(store_);
+      }
     });
   }
   // The same for a write that may take seconds.
   template <typename F>
   auto WithLong(F&& f) {
     const auto place = TakePlace();
+    const auto among_writers = AwaitWriters();
     const auto turn = AwaitTurn();
     const Publication published(*this);
     const Writing writing(*this, kLongWritePatience);
@@ -120,6 +128,9 @@ class SharedCatalog {
   // Among those that wait.
   std::shared_ptr<void> TakePlace();
   std::unique_lock<std::timed_mutex> AwaitTurn();
+  std::unique_lock<std::timed_mutex> AwaitWriters();
+  // Throws at once where another process writes: the turn is for readers while a write waits.
+  void GlanceAtLock();
   [[noreturn]] static void ThrowBusy();
   // Does it again while the catalogue is busy.
   template <typename F>
@@ -140,7 +151,11 @@ class SharedCatalog {
   auto AskOrLook(Ask ask, Look look);
   const CatalogView& RefreshView();
 
-  std::timed_mutex mutex_;  // of the store and of what was read from it
+  struct Turns {
+    std::timed_mutex writers;  // one of them at a time asks for the other
+    std::timed_mutex store;    // and what was read from it
+  };
+  Turns turns_;
   Turnstile waiting_{kCatalogueWaitingMax};
   catalog::Store store_;
   CatalogView view_;

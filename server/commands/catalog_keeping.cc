@@ -8,12 +8,15 @@
 #include "api/catalogue/seed/seed_document.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "api/protocol/part_revision.h"
+#include "api/protocol/read_by_hand.h"
 #include "server/call/reply.h"
 #include "server/call/tokens.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/files/input.h"
 #include "server/commands/output.h"
 #include "server/render/text/text_catalog.h"
+#include "server/render/text/text_protocol.h"
 #include "server/render/text/text_table.h"
 #include "server/resources/import_parts.h"
 
@@ -22,6 +25,8 @@ namespace {
 
 using catalog::Access;
 using catalog::WriteStatus;
+
+constexpr std::size_t kUndoErrorsShown = 20;
 
 void RevisionList(const CatalogOptions& options, const catalog::Store& store) {
   const auto revisions = store.Revisions(INT64_MAX, options.limit);
@@ -96,6 +101,15 @@ void ShowHistory(const CatalogOptions& options) {
   Print(Dump({{"id", options.id}, {"history", list}}) + "\n");
 }
 
+// A revision may have changed hundreds of parts.
+api::Errors FirstOf(api::Errors errors) {
+  if (errors.size() <= kUndoErrorsShown) return errors;
+  const std::size_t more = errors.size() - kUndoErrorsShown;
+  errors.resize(kUndoErrorsShown);
+  errors.push_back({"", "and " + std::to_string(more) + " more"});
+  return errors;
+}
+
 void UndoWrite(const CatalogOptions& options) {
   const auto number = options.revision.value();
   const auto written =
@@ -103,8 +117,22 @@ void UndoWrite(const CatalogOptions& options) {
   if (written.status == WriteStatus::kNotFound) {
     throw BadInput("REVISION: the catalogue has no revision " + std::to_string(number));
   }
-  if (written.status != WriteStatus::kDone) Refuse(FieldErrors(written.errors));
+  if (written.status != WriteStatus::kDone) Refuse(FirstOf(FieldErrors(written.errors)));
   Print("undone as revision " + std::to_string(written.revision.number) + "\n");
+}
+
+void WriteMeasured(const CatalogOptions& options) {
+  if (const std::string why = api::WhyInvalidSpecimen(options.reading.specimen, options.id);
+      !why.empty())
+    throw BadInput("--specimen: " + why);
+  auto store = OpenCatalog(options.catalog, Access::kWrite);
+  const auto part = store.Get(options.id);
+  if (!part) throw BadInput("ID: no part has the id " + options.id);
+  api::Json answer = ValueOrRefuse(api::ReadByHandAnswer(
+      *part, options.reading.readings, options.reading.uncertainty, options.reading.how));
+  answer["saved_part"] = api::SavePart(store, options.id, answer, {}, options.reading.anyway,
+                                       CommandSignature(), options.reading.specimen);
+  Print(options.json ? Dump(answer.at("saved_part")) + "\n" : SavedPartText(answer));
 }
 
 void BackupCatalog(const CatalogOptions& options) {

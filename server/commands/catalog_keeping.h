@@ -19,6 +19,13 @@ struct ListOptions {
   bool facets = false;
 };
 
+// What was read by hand of a part.
+struct ReadingOptions {
+  std::vector<std::string> readings;
+  std::string uncertainty, specimen, how;
+  bool anyway = false;
+};
+
 // Options of all subcommands; each uses its own.
 struct CatalogOptions {
   std::string catalog = catalog::DefaultCatalog();
@@ -28,11 +35,14 @@ struct CatalogOptions {
   int limit = 20;
   catalog::TableOptions table;  // of import
   std::vector<std::string> columns, set;
+  ReadingOptions reading;  // of measured
   bool json = false, csv = false, dry_run = false;
 };
 
 void ShowHistory(const CatalogOptions& options);
 void UndoWrite(const CatalogOptions& options);
+// Numbers read by hand into a part, as measured.
+void WriteMeasured(const CatalogOptions& options);
 void BackupCatalog(const CatalogOptions& options);
 void RestoreCatalog(const CatalogOptions& options);
 // All of the catalogue `file` into `id`, which must hold none; tokens, too.

@@ -291,6 +291,26 @@ OptionTable UpdateTable(CatalogOptions& options) {
           JsonFlag(options.json)};
 }
 
+OptionTable MeasuredTable(CatalogOptions& options) {
+  return {Argument("ID", "The part's id", &options.id),
+          Argument("READING", "FIELD=VALUE, with a unit: \"mass_kg=25.3 g\"",
+                   &options.reading.readings),
+          {"--uncertainty",
+           "Of what was read, relative or in %, one standard deviation",
+           &options.reading.uncertainty,
+           {.value_name = "SHARE", .required = true}},
+          {"--specimen",
+           "The piece of the part's type that was measured",
+           &options.reading.specimen,
+           {.value_name = "NAME"}},
+          {"--how",
+           "How it was read; kept as its source",
+           &options.reading.how,
+           {.value_name = "TEXT"}},
+          {"--anyway", "Also where it contradicts what stands there", &options.reading.anyway},
+          JsonFlag(options.json)};
+}
+
 // One argument by its place.
 std::function<OptionTable(CatalogOptions&)> FileTable(const char* help) {
   return [help](CatalogOptions& options) -> OptionTable {
@@ -330,6 +350,9 @@ Command CatalogCommand() {
              Answered<UndoWrite>, revision),
        Below("add", "Adds a part", "plenum catalog add part.json", Answered<Add>,
              FileTable("JSON as show --json prints it; - is standard input")),
+       Below("measured", "Saves numbers of a part that were read by hand, as measured",
+             "plenum catalog measured smc-vq110u-5m-m5 \"mass_kg=12.6 g\" --uncertainty \"0.5 %\"",
+             Answered<WriteMeasured>, MeasuredTable),
        Below("remove", "Removes a part", "plenum catalog remove my-valve", Answered<Remove>, id),
        Below("import", "Adds and replaces parts from a table",
              "plenum catalog import battery packs.csv --dry-run", Answered<Import>, ImportOptions),

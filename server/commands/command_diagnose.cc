@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/catalogue/stores.h"
+#include "api/json/reader.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/rig_parts.h"
 #include "api/protocol/part_revision.h"
@@ -29,10 +30,10 @@ namespace {
 struct DiagnoseOptions {
   std::vector<std::string> files;
   CsvOptions csv;
-  std::string model, save, report, save_part;
+  std::string model, save, report, save_part, specimen;
   std::string catalog = catalog::DefaultCatalog();
   std::vector<std::string> holdout, assume;
-  double time_limit_s = api::kDiagnosisTimeS;
+  std::optional<double> time_limit_s;
   bool json = false, save_part_anyway = false;
 };
 
@@ -58,6 +59,17 @@ std::optional<api::SavedModel> KnownModel(const DiagnoseOptions& options) {
   return ValueOrRefuse(api::FindModel(options.model, models, "--model"));
 }
 
+// What the option says, else the measurement, as that of a protocol's template does.
+double TakeTimeLimit(const DiagnoseOptions& options, api::Json& document, api::Errors& errors) {
+  if (!document.is_object() || !document.contains(api::kTimeLimitField))
+    return options.time_limit_s.value_or(api::kDiagnosisTimeS);
+  api::Reader reader(document, "", errors);
+  const double limit_s =
+      reader.Number(api::kTimeLimitField, {0.01, api::kDiagnosisTimeMaxS}, api::kDiagnosisTimeS);
+  document.erase(api::kTimeLimitField);
+  return options.time_limit_s.value_or(limit_s);
+}
+
 api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
   api::Json document =
@@ -65,16 +77,19 @@ api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
   if (!options.assume.empty() && document.is_object()) document["assume"] = options.assume;
   api::Errors errors;
+  request.time_limit_s = TakeTimeLimit(options, document, errors);
   if (api::NamesParts(document))
     document = api::WithParts(std::move(document),
                               OpenCatalog(options.catalog, catalog::Access::kRead).List(), errors);
   if (!errors.empty()) Refuse(errors);
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document, &request.remarks));
+  if (const std::string why = api::WhyInvalidSpecimen(options.specimen, options.save_part);
+      !why.empty())
+    Refuse({{"--save-part-specimen", why}});
   if (const std::string why = api::WhyNotMeasured(request.dataset, options.save_part); !why.empty())
     Refuse({{"--save-part", why}});
   request.measurement = std::move(document);
   request.model = KnownModel(options);
-  request.time_limit_s = options.time_limit_s;
   return request;
 }
 
@@ -114,8 +129,9 @@ int Diagnose(const DiagnoseOptions& options) {
   api::Json& answer = result.answer;
   if (!options.save_part.empty()) {
     catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kWrite);
-    answer["saved_part"] = api::SavePart(store, options.save_part, answer, request.provenance.files,
-                                         options.save_part_anyway, CommandSignature());
+    answer["saved_part"] =
+        api::SavePart(store, options.save_part, answer, request.provenance.files,
+                      options.save_part_anyway, CommandSignature(), options.specimen);
   }
   Print(options.json ? Dump(answer) + "\n"
                      : RecordingText(answer) + MeasuredText(answer) + DiagnosisText(answer));
@@ -141,13 +157,15 @@ std::vector<Option> DiagnosisOptions(DiagnoseOptions& options) {
            {.value_name = "ID"}},
           {"--save-part-anyway", "Also where they contradict what stands there",
            &options.save_part_anyway},
+          {"--save-part-specimen",
+           "The piece of the part's type that was measured",
+           &options.specimen,
+           {.value_name = "NAME"}},
           {"--report", "Write an HTML report", &options.report, {.value_name = "FILE"}},
           {"--time-limit",
-           "Seconds to search",
+           "Seconds to search; without it what the measurement says, or 60",
            &options.time_limit_s,
-           {.value_name = "S",
-            .shows_default = true,
-            .allowed = Within{0.01, api::kDiagnosisTimeMaxS}}},
+           {.value_name = "S", .allowed = Within{0.01, api::kDiagnosisTimeMaxS}}},
           JsonFlag(options.json),
           CatalogOption(options.catalog)};
 }

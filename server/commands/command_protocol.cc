@@ -25,7 +25,7 @@ struct ProtocolOptions {
   double noise_kpa = api::TestSensor().noise_kpa;
   double resolution_kpa = api::TestSensor().resolution_kpa;
   double sampling_hz = api::TestSensor().sampling_hz;
-  std::optional<double> bottle_l;
+  std::optional<double> bottle_l, bottle_uncertainty;
   bool json = false;
 };
 
@@ -56,7 +56,8 @@ int Protocol(const ProtocolOptions& options) {
       api::RenderProtocol(PartOf(options), {.noise_kpa = options.noise_kpa,
                                             .resolution_kpa = options.resolution_kpa,
                                             .sampling_hz = options.sampling_hz,
-                                            .bottle_l = options.bottle_l});
+                                            .bottle_l = options.bottle_l,
+                                            .bottle_uncertainty = options.bottle_uncertainty});
   if (!options.write_template.empty()) WriteTemplate(options.write_template, protocol);
   Print(options.json ? Dump(protocol) + "\n" : ProtocolText(protocol));
   return kAnswered;
@@ -88,6 +89,10 @@ Command ProtocolCommand() {
             "Volume of the bottle; a fitting one without it",
             &options->bottle_l,
             {.value_name = "L", .allowed = Of(api::BottleRange())}},
+           {"--bottle-uncertainty",
+            "Of its volume, relative: 0.002 of one weighed full of water; assumed without it",
+            &options->bottle_uncertainty,
+            {.value_name = "SHARE", .allowed = Of(api::BottleUncertaintyRange())}},
            {"--template",
             "Write the file that the recording needs",
             &options->write_template,

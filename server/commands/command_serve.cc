@@ -14,6 +14,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/files/input.h"
 #include "server/commands/interrupt.h"
+#include "server/commands/memory_patience.h"
 #include "server/http.h"
 #include "server/resources/pages/docs_resource.h"
 
@@ -61,6 +62,7 @@ std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
 
 void Serve(const ServeOptions& options) {
   BlockInterrupts();
+  WaitForMemory();
   // A write past the limit on the size of files then fails, as on a full disk, and ends nothing.
   std::signal(SIGXFSZ, SIG_IGN);
   const auto service = Listen(options);

@@ -12,6 +12,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/files/input.h"
 #include "server/commands/interrupt.h"
+#include "server/commands/memory_patience.h"
 #include "server/jobs/job_memory.h"
 #include "server/jobs/job_worker.h"
 #include "server/jobs/shared_jobs.h"
@@ -49,6 +50,7 @@ void DoJobs(const WorkOptions& options) {
         "--catalog: workers need a catalogue on a server, postgresql://USER@HOST/DATABASE; the "
         "jobs of one in a file are done by its plenum serve");
   BlockInterrupts();
+  WaitForMemory();
   OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with it
   try {
     SharedCatalog parts(options.catalog);

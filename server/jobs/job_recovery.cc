@@ -24,9 +24,9 @@ std::string WhyOver(const catalog::JobRecord& record) {
 
 }  // namespace
 
-void RecoverJobs(catalog::JobStore& store, const std::filesystem::path& crash_file) {
+void RecoverJobs(catalog::JobStore& store, const std::filesystem::path& marks_file) {
   std::vector<catalog::JobCrash> crashes;
-  for (const CrashMark& mark : ReadCrashMarks(crash_file))
+  for (const CrashMark& mark : ReadCrashMarks(marks_file))
     crashes.push_back({mark.job, Describe(mark)});
   store.RequeueInterrupted(crashes);
   for (catalog::JobRecord& record : store.List()) {

@@ -9,9 +9,9 @@
 namespace plenum::server {
 
 // For who opened the store, before any job begins: jobs that were under way are queued again, to
-// run alone. Jobs that crashed the program (`crash_file`, server/jobs/crash_marks.h) as often as
+// run alone. Jobs that crashed the program (`marks_file`, server/jobs/crash_marks.h) as often as
 // they may and those whose record is damaged end as failed. No job is a reason to throw.
-void RecoverJobs(catalog::JobStore& store, const std::filesystem::path& crash_file);
+void RecoverJobs(catalog::JobStore& store, const std::filesystem::path& marks_file);
 
 }  // namespace plenum::server
 

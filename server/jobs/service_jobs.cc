@@ -56,9 +56,9 @@ class OwnJobs : public ServiceJobs {
 
  private:
   // The file of crash marks, once the jobs know what it says.
-  std::filesystem::path Recovered(const std::filesystem::path& crash_file) {
-    RecoverJobs(store_, crash_file);
-    return crash_file;
+  std::filesystem::path Recovered(const std::filesystem::path& marks) {
+    RecoverJobs(store_, marks);
+    return marks;
   }
 
   catalog::JobStore store_;

@@ -1,8 +1,11 @@
 #include "server/resources/designs_resource.h"
 
+#include <charconv>
+
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/stores.h"
 #include "api/design/answer.h"
+#include "api/design/given/unit_of_design.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/sweep/sweep_table.h"
 #include "api/json/json.h"
@@ -113,6 +116,36 @@ Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call
                        request.model);
   order.priority = priority;
   return StartJob(designs, call, std::move(order));
+}
+
+Reply UnitReply(const std::string& unit) {
+  return {200,
+          "application/octet-stream",
+          unit,
+          {{"Content-Disposition", "attachment; filename=\"supply.fmu\""}},
+          {}};
+}
+
+Reply GetUnit(SharedCatalog& catalog, const JobsResource& designs, const Call& call) {
+  const std::string id = call.argument.substr(0, call.argument.find('/'));
+  const std::string_view text = std::string_view(call.argument).substr(id.size() + 1);
+  int rank = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rank);
+  const std::optional<Job> job = designs.jobs->Get(id);
+  if (!job) return ProblemReply(404, "no design job has the id " + id);
+  if (error != std::errc() || end != text.data() + text.size())
+    return ProblemReply(404, "the rank of a design is a whole number from 1 on");
+  if (!job->result) return ProblemReply(409, "the job " + id + " has no answer yet");
+  const auto evaluation = api::EvaluationOfRank(api::Json::parse(*job->result), rank);
+  if (const auto* errors = std::get_if<api::Errors>(&evaluation))
+    return ProblemReply(404, "the answer " + errors->front().detail);
+  const auto view = catalog.ViewAt(job->catalogue.number);
+  if (!view || view->revision.hash != job->catalogue.hash)
+    return ProblemReply(409, "the catalogue no longer holds the revision that the job was done on");
+  const auto unit =
+      api::MakeUnitFile(std::get<api::Json>(evaluation), *view->parts(), catalog.Models());
+  if (const auto* errors = std::get_if<api::Errors>(&unit)) return ProblemReply(422, *errors);
+  return UnitReply(std::get<std::string>(unit));
 }
 
 }  // namespace plenum::server

@@ -27,11 +27,12 @@ constexpr const char* kModel = "model";
 constexpr const char* kSave = "save";
 constexpr const char* kSavePart = "save_part";
 constexpr const char* kSavePartAnyway = "save_part_anyway";
-constexpr const char* kTimeLimit = "time_limit_s";
+constexpr const char* kSavePartSpecimen = "save_part_specimen";
+constexpr const char* kTimeLimit = api::kTimeLimitField;
 
 // What the service takes beside the measurement.
 struct Names {
-  std::string model, save, save_part;  // empty: none
+  std::string model, save, save_part, specimen;  // empty: none
   bool save_part_anyway = false;
   double time_limit_s = api::kDiagnosisTimeS;
 };
@@ -43,6 +44,9 @@ Names ReadNames(const api::Json& document, api::Errors& errors) {
   if (reader.Has(kModel)) names.model = reader.Text(kModel);
   if (reader.Has(kSave)) names.save = reader.Text(kSave);
   if (reader.Has(kSavePart)) names.save_part = reader.Text(kSavePart);
+  if (reader.Has(kSavePartSpecimen)) names.specimen = reader.Text(kSavePartSpecimen);
+  const std::string wrong = api::WhyInvalidSpecimen(names.specimen, names.save_part);
+  if (!wrong.empty()) reader.Fail(kSavePartSpecimen, wrong);
   names.save_part_anyway = reader.Bool(kSavePartAnyway, false);
   names.time_limit_s =
       reader.Number(kTimeLimit, {0.01, api::kDiagnosisTimeMaxS}, api::kDiagnosisTimeS);
@@ -97,6 +101,7 @@ api::Parsed<Request> ReadRequest(std::string_view body,
     document.erase(kSave);
     document.erase(kSavePart);
     document.erase(kSavePartAnyway);
+    document.erase(kSavePartSpecimen);
     document.erase(kTimeLimit);
   }
   document = ReadParts(std::move(document), parts, errors);
@@ -161,13 +166,14 @@ void SavePart(SharedCatalog& catalog, const Names& names, const std::string& who
     answer["saved_part"] = catalog.With(
         [&](catalog::Store& store) {
           return api::SavePart(store, names.save_part, answer, files, names.save_part_anyway,
-                               {.who = who, .key = "", .request = ""});
+                               {.who = who, .key = "", .request = ""}, names.specimen);
         },
         kSavePatience);
   } catch (const catalog::StoreError& error) {
     Log({{"level", "error"}, {"part", names.save_part}, {"not_saved", error.what()}});
     answer["saved_part"] = {
         {"part", names.save_part},
+        {"specimen", names.specimen.empty() ? api::Json(nullptr) : api::Json(names.specimen)},
         {"numbers", api::Json::array()},
         {"refused", api::Json::array({"the catalogue could not be written: post again"})},
         {"revision", nullptr}};

@@ -7,6 +7,7 @@
 #include "api/catalogue/table_reading.h"
 #include "api/describe/catalogue_answers.h"
 #include "api/describe/descriptions.h"
+#include "api/describe/design_answers.h"
 #include "api/json/schema_recorder.h"
 #include "api/protocol/test_sensor.h"
 #include "server/call/lower_case.h"
@@ -19,10 +20,8 @@ namespace {
 
 using api::Json;
 
-constexpr char kJson[] = "application/json";
-constexpr char kCsv[] = "text/csv";
-constexpr char kBytes[] = "application/octet-stream";
-constexpr char kEvents[] = "text/event-stream";
+constexpr char kJson[] = "application/json", kCsv[] = "text/csv",
+               kBytes[] = "application/octet-stream", kEvents[] = "text/event-stream";
 
 // What an operation takes and gives beyond what its route says.
 struct Operation {
@@ -43,7 +42,7 @@ const std::vector<std::string> kJobPost = {"validate_only", "priority", "Prefer"
 const std::map<std::string, Operation>& Operations() {
   static const std::vector<std::string> kPage = {"limit", "cursor"};
   static const std::vector<std::string> kSensor = {"sensor_noise_kpa", "sensor_resolution_kpa",
-                                                   "sampling_hz", "bottle_l"};
+                                                   "sampling_hz", "bottle_l", "bottle_uncertainty"};
   static const std::vector<std::string> kWrite = {"Idempotency-Key", "From"};
   static const std::map<std::string, Operation> kOperations = {
       {"POST /v1/designs",
@@ -60,6 +59,8 @@ const std::map<std::string, Operation>& Operations() {
        {{}, "SimulationOrCurves", {{200, "ResponseOrCurves"}}, {400, 422, 429}}},
       {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
       {"POST /v1/fmus", {{}, "Evaluation", {{200, "Unit", kBytes}}, {400, 422, 429}}},
+      {"GET /v1/designs/{id}/{rank}/fmu",
+       {{"rank"}, "", {{200, "Unit", kBytes}}, {404, 409, 422, 429}}},
       {"POST /v1/measurements", {{}, "Recording", {{200, "Recorded"}}, {400, 422, 429}}},
       {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
       {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
@@ -144,27 +145,28 @@ const Operation& OperationOf(const Route& route) {
   throw std::logic_error("no description of " + route.method + " " + route.path);
 }
 
+Json Parameter(const char* place, const char* name, Json schema, const char* description) {
+  return {
+      {"name", name}, {"in", place}, {"schema", std::move(schema)}, {"description", description}};
+}
 Json Header(const char* name, const char* description) {
-  return {{"name", name},
-          {"in", "header"},
-          {"schema", {{"type", "string"}}},
-          {"description", description}};
+  return Parameter("header", name, {{"type", "string"}}, description);
 }
 Json Query(const char* name, Json schema, const char* description) {
-  return {
-      {"name", name}, {"in", "query"}, {"schema", std::move(schema)}, {"description", description}};
+  return Parameter("query", name, std::move(schema), description);
+}
+Json InPath(const char* name, Json schema, const char* description) {
+  Json parameter = Parameter("path", name, std::move(schema), description);
+  parameter["required"] = true;
+  return parameter;
 }
 
 Json Parameters() {
   const Json text = {{"type", "string"}}, flag = {{"type", "boolean"}};
-  Json parameters = {
-      {"id", {{"name", "id"}, {"in", "path"}, {"required", true}, {"schema", text}}},
-      {"path",
-       {{"name", "path"},
-        {"in", "path"},
-        {"required", true},
-        {"schema", text},
-        {"description", "of a file of the documentation; empty for its first page"}}},
+  return {
+      {"id", InPath("id", text, "of the part, job or sweep")},
+      {"rank", InPath("rank", {{"type", "integer"}, {"minimum", 1}}, "of the design")},
+      {"path", InPath("path", text, "of a file of the documentation; empty for its first page")},
       {"limit", Query("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
                       "entries of a page")},
       {"cursor", Query("cursor", text, "next_cursor of the page before")},
@@ -188,6 +190,10 @@ Json Parameters() {
                             "readings a second, at most; 100 without it")},
       {"bottle_l", Query("bottle_l", api::NumberForm(api::BottleRange()),
                          "volume of the bottle; a fitting one without it")},
+      {"bottle_uncertainty",
+       Query("bottle_uncertainty", api::NumberForm(api::BottleUncertaintyRange()),
+             "of its volume, relative: 0.002 of one weighed full of water; 0.02 is assumed "
+             "without it")},
       {"validate_only", Query("validate_only", flag, "check the document, start no job")},
       {"revision", Query("revision", {{"type", "integer"}, {"minimum", 0}},
                          "as it was in this revision of the catalogue")},
@@ -199,7 +205,6 @@ Json Parameters() {
       {"From", Header("From", "who writes")},
       {"If-Match", Header("If-Match", "ETag of what is replaced or removed; needed")},
       {"If-None-Match", Header("If-None-Match", "ETag of what the client has")}};
-  return parameters;
 }
 
 // Of answers: the fields that callers may rely on; more may come.
@@ -318,6 +323,7 @@ Json Schemas() {
                              {"oldest", {{"type", {"string", "null"}}}}});
   schemas.update(AnswerSchemas());
   schemas.update(api::DescribeCatalogueAnswers());
+  api::AddDesignAnswers(schemas);
   return schemas;
 }
 
@@ -381,7 +387,7 @@ Json OpenApi(const std::vector<Route>& routes) {
              "Chooses the parts of a pneumatic supply for soft robots. The unit of every number "
              "is the end of its name. Limits are at /v1/limits. Beyond the statuses of an "
              "operation every one may answer 400, 401, 403, 408, 413, 414, 415, 429, 431, 500, "
-             "503 or 507, always with a problem document."}}},
+             "501, 503, 505 or 507, always with a problem document."}}},
           {"security", Json::array({Json::object(), Json{{"token", Json::array()}}})},
           {"paths", std::move(paths)},
           {"components",

@@ -165,8 +165,8 @@ Reply GetPart(SharedCatalog& catalog, const Call& call) {
 }
 
 Reply GetProtocol(SharedCatalog& catalog, const Call& call) {
-  const auto errors =
-      CheckQuery(call, {"sensor_noise_kpa", "sensor_resolution_kpa", "sampling_hz", "bottle_l"});
+  const auto errors = CheckQuery(call, {"sensor_noise_kpa", "sensor_resolution_kpa", "sampling_hz",
+                                        "bottle_l", "bottle_uncertainty"});
   if (!errors.empty()) return ProblemReply(422, errors);
   const auto sensor = api::ParseTestSensor(call.query);
   if (const auto* wrong = std::get_if<api::Errors>(&sensor)) return ProblemReply(422, *wrong);

@@ -18,8 +18,9 @@ namespace plenum::server {
 
 struct Route {
   std::string method;
-  std::string path;  // "{id}" stands for one segment, which becomes Call::argument;
-                     // "{path}", at the end, for all that is left, which may be nothing
+  std::string path;  // "{id}" stands for one segment, which becomes Call::argument, "{id}/{rank}"
+                     // for two, joined by "/"; "{path}", at the end, for all that is left, which
+                     // may be nothing
   std::string summary;
   Access access;
   std::function<Reply(const Call&)> answer;

@@ -32,7 +32,7 @@
 namespace plenum::server {
 namespace {
 
-constexpr std::string_view kVariable = "{id}", kRest = "{path}";
+constexpr std::string_view kRest = "{path}";
 
 // A turn among those that compute, fewer of which may be large.
 std::shared_ptr<void> EnterComputing(bool large) {
@@ -41,12 +41,13 @@ std::shared_ptr<void> EnterComputing(bool large) {
 }
 
 Reply Found(const api::Json& answer) { return JsonReply(200, answer); }
-Reply Found(const std::string& unit) {
-  return {200,
-          "application/octet-stream",
-          unit,
-          {{"Content-Disposition", "attachment; filename=\"supply.fmu\""}},
-          {}};
+Reply Found(const std::string& unit) { return UnitReply(unit); }
+
+Reply TooManyCompute(bool large) {
+  return large ? BusyReply("large_computing_max", kLargeComputingMax,
+                           "other large simulations are under way", 1)
+               : BusyReply("computing_max", kComputingMax,
+                           "other simulations and maps are under way", 1);
 }
 
 // The document of a large request is read in the turn of large requests, which ends before the
@@ -55,11 +56,7 @@ template <typename F>
 Reply AnswerAtOnce(const Call& call, F&& run) {
   const bool large = call.turn != nullptr;
   const auto turn = EnterComputing(large);
-  if (!turn)
-    return large ? BusyReply("large_computing_max", kLargeComputingMax,
-                             "other large simulations are under way", 1)
-                 : BusyReply("computing_max", kComputingMax,
-                             "other simulations and maps are under way", 1);
+  if (!turn) return TooManyCompute(large);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   call.turn = nullptr;
@@ -128,12 +125,18 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
        Access::kRead, parts(GetPartsCheck)},
       {"GET", "/v1/parts/{id}/protocol",
        "how to measure a part; query sensor_noise_kpa, sensor_resolution_kpa, sampling_hz, "
-       "bottle_l",
+       "bottle_l, bottle_uncertainty",
        Access::kRead, parts(GetProtocol)}};
   routes.insert(one, std::begin(many), std::end(many));
 }
 
-void AddUnits(SharedCatalog& catalog, std::vector<Route>& routes) {
+void AddUnits(SharedCatalog& catalog, const JobsResource& designs, std::vector<Route>& routes) {
+  routes.push_back({"GET", designs.path + "/{id}/{rank}/fmu",
+                    "a design of the job's answer as a unit for co-simulation (FMI 2.0)",
+                    Access::kRead, [&catalog, designs](const Call& call) {
+                      const auto turn = EnterComputing(false);
+                      return turn ? GetUnit(catalog, designs, call) : TooManyCompute(false);
+                    }});
   routes.push_back({"POST", "/v1/fmus",
                     "evaluation/1 in: the design as a unit for co-simulation (FMI 2.0) out",
                     Access::kRead, [&catalog](const Call& call) {
@@ -286,7 +289,7 @@ std::vector<Route> Routes(const Services& services) {
        }},
   };
   AddManyPartsRoutes(catalog, routes);
-  AddUnits(catalog, routes);
+  AddUnits(catalog, design_jobs, routes);
   AddRecordings(routes);
   AddCatalogUpdate(services, routes);
   for (const JobsResource* jobs : {&design_jobs, &diagnosis_jobs}) AddJobRoutes(*jobs, routes);
@@ -309,18 +312,18 @@ bool Matches(const Route& route, std::string_view path, std::string& argument) {
     argument = path.substr(before.size());
     return true;
   }
-  const auto at = pattern.find(kVariable);
-  if (at == std::string_view::npos) return path == pattern;
-  const auto head = pattern.substr(0, at);
-  const auto tail = pattern.substr(at + kVariable.size());
-  if (path.size() <= head.size() + tail.size() || !path.starts_with(head) ||
-      !path.ends_with(tail)) {
-    return false;
+  argument.clear();
+  for (std::string_view rest = pattern;;) {
+    const auto wanted = rest.substr(0, rest.find('/')), given = path.substr(0, path.find('/'));
+    const bool varies = wanted.starts_with('{');
+    if (varies ? given.empty() : wanted != given) return false;
+    if (varies) argument.append(argument.empty() ? "" : "/").append(given);
+    const bool ends = wanted.size() == rest.size();
+    if (ends != (given.size() == path.size())) return false;
+    if (ends) return true;
+    rest.remove_prefix(wanted.size() + 1);
+    path.remove_prefix(given.size() + 1);
   }
-  const auto middle = path.substr(at, path.size() - head.size() - tail.size());
-  if (middle.find('/') != std::string_view::npos) return false;
-  argument = middle;
-  return true;
 }
 
 }  // namespace plenum::server

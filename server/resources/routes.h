@@ -13,7 +13,7 @@ namespace plenum::server {
 
 std::vector<Route> Routes(const Services& services);  // which must outlive them
 
-// Whether `path` has the form of `route.path`; the segment at {id} goes to `argument`.
+// Whether `path` has the form of `route.path`; the segments at {id} and {rank} go to `argument`.
 bool Matches(const Route& route, std::string_view path, std::string& argument);
 
 }  // namespace plenum::server

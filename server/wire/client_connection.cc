@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/call/service_limits.h"
+#include "server/wire/grammar.h"
 
 namespace plenum::server {
 namespace {
@@ -62,6 +63,13 @@ Answer::Sent Answer::SendTo(int socket) {
     Add(std::make_shared<const std::string>(std::move(piece)));
   }
   return Sent::kSome;
+}
+
+bool Arriving::SkipEmptyLine() {
+  if (skipped_line || !bytes.starts_with(kLineEnd)) return false;
+  bytes.erase(0, kLineEnd.size());
+  frame = {};
+  return skipped_line = true;
 }
 
 ClientConnection::ClientConnection(int fd) : socket(fd), peer(PeerOf(fd)) {

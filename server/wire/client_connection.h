@@ -44,8 +44,12 @@ class Answer {
 
 // What has arrived of requests.
 struct Arriving {
+  // Drops one empty line before the request, which old clients send after a body (RFC 9112, 2.2).
+  bool SkipEmptyLine();
+
   std::string bytes;
   RequestFrame frame;                // of the first
+  bool skipped_line = false;         // an empty one before it
   bool examined = false;             // its head, while its body is to come
   std::shared_ptr<void> large_turn;  // while its body is a large table
 };

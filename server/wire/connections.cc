@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -81,12 +82,17 @@ std::size_t Connections::open() const {
 }
 
 void Connections::Admit(int socket) {
-  auto connection = std::make_unique<ClientConnection>(socket);
-  ClientConnection& admitted = *connection;
-  const std::lock_guard lock(mutex_);
-  connections_[socket] = std::move(connection);
-  if (!poll_set_.Add(socket, &admitted)) connections_.erase(socket);
-  if (connections_.size() > kConnectionsMax) MakeRoom();
+  std::unique_ptr<ClientConnection> connection;
+  try {
+    connection = std::make_unique<ClientConnection>(socket);
+    ClientConnection& admitted = *connection;
+    const std::lock_guard lock(mutex_);
+    connections_[socket] = std::move(connection);
+    if (!poll_set_.Add(socket, &admitted)) connections_.erase(socket);
+    if (connections_.size() > kConnectionsMax) MakeRoom();
+  } catch (const std::exception&) {
+    if (!connection) close(socket);
+  }
 }
 
 void Connections::WorkLoop() {
@@ -101,7 +107,11 @@ void Connections::WorkLoop() {
     } catch (const std::exception&) {  // no memory: this client is let go, others are served
     }
     Account(connection);
-    HandOver(connection, next);
+    try {
+      HandOver(connection, next);
+    } catch (const std::exception&) {  // it is in no list yet
+      Close(connection);
+    }
   }
 }
 
@@ -198,7 +208,7 @@ Connections::Next Connections::Receive(ClientConnection& connection) {
     if (!connection.attention.expired || connection.arriving.bytes.empty() ||
         connection.thrown_away)
       return Next::kClose;
-    const bool in_head = connection.arriving.frame.size() == 0;
+    const bool in_head = connection.arriving.frame.head_size() == 0;
     Refuse(connection, {408, in_head ? "head_seconds_max" : "body_bytes_per_second_min",
                         "the request did not arrive in time"});
     return Next::kGoOn;
@@ -215,6 +225,10 @@ Connections::Next Connections::Receive(ClientConnection& connection) {
 // The first request of those that have arrived, if it is whole.
 Connections::Next Connections::TakeRequest(ClientConnection& connection) {
   using State = RequestFrame::State;
+  if (connection.arriving.SkipEmptyLine() && connection.arriving.bytes.empty()) {
+    connection.attention.Await(seconds(kIdleSecondsMax));
+    return Next::kRead;
+  }
   const State state = connection.arriving.frame.Look(connection.arriving.bytes);
   if (state == State::kHead) return Next::kRead;
   if (state == State::kBody) return AwaitBody(connection);
@@ -228,7 +242,7 @@ Connections::Next Connections::TakeRequest(ClientConnection& connection) {
   connection.request->peer = connection.peer;
   connection.is_urgent = handlers_.is_urgent(connection.request->head);
   connection.arriving.frame = {};
-  connection.arriving.examined = false;
+  connection.arriving.skipped_line = connection.arriving.examined = false;
   return Next::kGoOn;
 }
 
@@ -237,8 +251,7 @@ Connections::Next Connections::AwaitBody(ClientConnection& connection) {
   const RequestFrame& frame = connection.arriving.frame;
   const bool first = !std::exchange(connection.arriving.examined, true);
   if (first) {
-    std::string refusal =
-        handlers_.examine(connection.arriving.bytes.substr(0, frame.head_size()), connection.peer);
+    std::string refusal = handlers_.examine(frame.head(), connection.peer);
     if (!refusal.empty()) {
       RefuseWith(connection, std::move(refusal));
       return Next::kGoOn;

@@ -24,7 +24,8 @@
 #include "server/wire/exchange.h"
 #include "server/wire/places.h"
 #include "server/wire/poll_set.h"
-#include "server/wire/request_frame.h"
+#include "server/wire/refusal.h"
+#include "server/wire/request_head.h"
 
 namespace plenum::server {
 
@@ -32,11 +33,11 @@ namespace plenum::server {
 struct Handlers {
   std::function<Handled(Incoming, Outgoing&)> handle;
   // The whole refusal, as text, of a request whose body is still to come; empty: let it come.
-  std::function<std::string(const std::string& head, const std::string& peer)> examine;
+  std::function<std::string(const RequestHead& head, const std::string& peer)> examine;
   // The whole answer, as text, to what is no request that is served.
   std::function<std::string(const Refusal&, const std::string& peer)> refuse;
   // Whether a request needs no place, by its head.
-  std::function<bool(const std::string& head)> is_urgent;
+  std::function<bool(const RequestHead& head)> is_urgent;
 };
 
 class Connections {
@@ -46,7 +47,7 @@ class Connections {
 
   // As many threads as `places` and a few for urgent requests and for bytes.
   void Start(int places);
-  // Takes over a connected socket.
+  // Takes over a connected socket; where there is no memory for it, it is closed.
   void Admit(int socket);
   // Something has changed that requests may wait for (Handled::on_change).
   void Wake();

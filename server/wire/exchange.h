@@ -8,12 +8,13 @@
 #include <string>
 
 #include "server/call/reply.h"
+#include "server/wire/request_head.h"
 
 namespace plenum::server {
 
 // One whole request.
 struct Incoming {
-  std::string head;  // request line and headers, with the empty line
+  RequestHead head;
   std::string body;
   std::string peer;      // the client's address
   bool is_last = false;  // the connection closes after it

@@ -1,6 +1,8 @@
 #include "server/wire/write_answer.h"
 
+#include <array>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
 #include "api/json/problem_document.h"
@@ -33,12 +35,29 @@ std::string TitleOf(int status) {
   }
 }
 
+// Now, as "Sun, 06 Nov 1994 08:49:37 GMT" (RFC 9110, 5.6.7), whatever the locale.
+std::string HttpDate() {
+  constexpr std::array kDays = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+  constexpr std::array kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                  "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  const std::time_t now = std::time(nullptr);
+  std::tm t{};
+  gmtime_r(&now, &t);
+  char text[64];
+  std::snprintf(text, sizeof text, "%s, %02d %s %04d %02d:%02d:%02d GMT",
+                kDays[static_cast<std::size_t>(t.tm_wday)], t.tm_mday,
+                kMonths[static_cast<std::size_t>(t.tm_mon)], t.tm_year + 1900, t.tm_hour, t.tm_min,
+                t.tm_sec);
+  return text;
+}
+
 std::string HeadOf(const Reply& reply, const AnswerForm& form) {
   std::string head =
       "HTTP/1.1 " + std::to_string(reply.status) + " " + TitleOf(reply.status) + "\r\n";
   const auto add = [&](const std::string& name, const std::string& value) {
     head.append(name).append(": ").append(value).append("\r\n");
   };
+  add("Date", HttpDate());
   add("Accept-Ranges", "none");
   for (const auto& [name, value] : reply.headers) add(name, value);
   if (HasBody(reply.status) && !reply.content_type.empty()) add("Content-Type", reply.content_type);

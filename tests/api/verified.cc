@@ -43,6 +43,30 @@ Json Answered(const Json& request) {
   return Parse(answer.dump());
 }
 
+std::string Pointers(const Json& request) {
+  std::string all;
+  for (const Error& error : ErrorsOf(ParseRequirements(request, Project().parts)))
+    all += error.pointer + " ";
+  return all;
+}
+
+Json SlowFingers(int groups) {
+  Json request = Example("gripper");
+  Json finger = request["actuators"][0];
+  finger["count"] = 2;
+  finger["rise_time_s_max"] = 2.0;
+  finger["fall_time_s_max"] = 2.0;
+  request["actuators"] = Json::array();
+  for (int g = 0; g < groups; ++g) {
+    finger["name"] = "fingers " + std::to_string(g);
+    request["actuators"].push_back(finger);
+  }
+  request["duty"] = {{"frequency_hz", 0.1}, {"actuations", 500}, {"simultaneous", groups == 1}};
+  request["supply"] = {{"configurations", {"direct_pump"}}};
+  request["ranking"] = {{"count", 2}, {"list", "combinations"}, {"proof", true}};
+  return request;
+}
+
 Parsed<Json> Evaluated(const Json& request, const Json& design) {
   return RunEvaluation({{"schema", "evaluation/1"}, {"requirements", request}, {"design", design}},
                        Project().parts, {});

@@ -22,6 +22,12 @@ const Catalogue& Project();
 Json Example(const std::string& name);  // a request
 Json Answered(const Json& request);     // as it is read back from a file
 
+// The pointers of what is wrong with a request, each with a space behind it.
+std::string Pointers(const Json& request);
+
+// A request for pumps that may be without a reservoir: pairs of slow fingers.
+Json SlowFingers(int groups);
+
 // A design beside the request that it is to meet, as `plenum evaluate` takes them.
 Parsed<Json> Evaluated(const Json& request, const Json& design);
 

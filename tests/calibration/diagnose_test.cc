@@ -85,6 +85,9 @@ TEST(Diagnose, AWildReadingOfTheRunNotSeenDoesNotSpeakAgainstTheEffect) {
   EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
   EXPECT_LT(*d.after.holdout_rms_pa, 1.1 * test::kBenchNoisePa);
   EXPECT_THAT(d.warnings, ::testing::Contains("1 wild readings were left out"));
+  // It is not among the readings of the stated error.
+  EXPECT_THAT(d.warnings, ::testing::Contains(::testing::StartsWith(
+                              "the wild readings are unseen at 0.24 s; with them the error is ")));
 }
 
 TEST(Predict, AWildReadingDoesNotSpeakAgainstTheModel) {

@@ -1,4 +1,5 @@
 // A tight vessel whose walls give off gas after it was evacuated, in closed form.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,6 +69,26 @@ TEST(Outgassing, ThatDoesNotDecayIsALeak) {
   ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
   ASSERT_EQ(d.effects.size(), 1u) << d.sentence;
   EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
+}
+
+// Beside a leak, whose flow hardly changes near vacuum, the sum of both is a drift of the sensor,
+// too, of as many numbers. That a term that has no name does as well is said; it is no reason
+// against names.
+TEST(Outgassing, BesideALeakIsNamedThoughASensorMightDrift) {
+  Dataset dataset;
+  dataset.name = "vessel";
+  dataset.runs = {Evacuated("a", 300.0, 1), Evacuated("b", 900.0, 2), Evacuated("c", 500.0, 3)};
+  for (calibration::Run& run : dataset.runs)
+    for (std::size_t i = 0; i < run.t_s.size(); ++i) run.pressure_pa[i] += 2.0 * run.t_s[i];
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  ASSERT_EQ(d.effects.size(), 2u) << d.sentence;
+  EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
+  ASSERT_EQ(d.effects[1].effect.spec->id, "outgassing");
+  const double flow_m3_per_s = 1200.0 / kTimeConstantS * kVolumeM3 / model::kReferencePressurePa;
+  EXPECT_NEAR(d.effects[1].effect.parameters[0], flow_m3_per_s, 0.05 * flow_m3_per_s);
+  EXPECT_NEAR(d.effects[1].effect.parameters[1], kTimeConstantS, 0.05 * kTimeConstantS);
+  EXPECT_THAT(d.warnings, testing::Contains(testing::HasSubstr("a sensor that drifts")));
 }
 
 }  // namespace outgassing_test

@@ -5,11 +5,15 @@ usage: estimates_test.py SOURCE_DIR
 """
 import math
 import pathlib
+import re
+import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(sys.argv.pop(1)).resolve() / "catalog/estimates"))
+SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE / "catalog/estimates"))
 import pumps  # noqa: E402
+import spreads  # noqa: E402
 import tables  # noqa: E402
 from fit import Law, Point  # noqa: E402
 
@@ -38,6 +42,63 @@ class Laws(unittest.TestCase):
         row["mass_kg.provenance"] = "estimated"
         tables.predict_into(row, "mass_kg", 5.0, 0.2, "regression: …")
         self.assertEqual((row["mass_kg"], row["mass_kg.uncertainty"]), ("5", "0.2"))
+
+
+def known(part, series, value, **more):
+    return {"id": part, "series": series, "manufacturer": "M", "x": value, "x.source": "page 1",
+            "x.provenance": "datasheet", "x.uncertainty": ""} | more
+
+
+class Spreads(unittest.TestCase):
+    def spread(self, rows, kind=spreads.Spread, says=lambda row: 2.0):
+        return kind("key", "title", "family", "x", ["a rule"], says, rows)
+
+    def test_a_rule_misses_by_what_the_rows_say_a_series_counting_once(self):
+        rows = [known("a", "one", "4")] * 9 + [known("b", "two", "2")]
+        self.assertAlmostEqual(self.spread(rows).sigma, math.log(2.0) / math.sqrt(2.0))
+
+    def test_one_series_widens_but_does_not_narrow(self):
+        self.assertIsNone(self.spread([known("a", "one", "2.1")]).sigma)
+        self.assertAlmostEqual(self.spread([known("a", "one", "4")]).sigma, math.log(2.0))
+        self.assertIsNone(self.spread([]).sigma)
+
+    def test_a_class_is_left_out_series_by_series(self):
+        rows = [known("a", "one", "1"), known("b", "two", str(math.e))]
+        self.assertAlmostEqual(self.spread(rows, spreads.ClassSpread).sigma, 1.0)
+
+    def test_only_estimates_of_the_rule_are_filled(self):
+        rule = {"x.source": "rule: a rule, data README", "x.provenance": "estimated"}
+        rows = [known("a", "one", "4"), known("b", "two", "2"), known("c", "three", "3", **rule),
+                known("d", "three", "3", **(rule | {"x.source": "rule: another"}))]
+        self.spread(rows[:2]).fill(rows)
+        self.assertEqual([row["x.uncertainty"] for row in rows], ["", "", "0.49", ""])
+
+    def test_every_estimate_has_an_error_or_a_reason(self):
+        page = (SOURCE / "docs/explanation/data_quality.md").read_text(encoding="utf-8")
+        all_rows = {family: tables.read(family)[1] for family in tables.families()}
+        kept = spreads.keeps_default(all_rows)
+        self.assertTrue(kept)
+        for (family, field), count in kept.items():
+            self.assertIn(f"| {family} | `{field}` | {count} |", page)
+
+
+class Page(unittest.TestCase):
+    def test_the_shares_are_those_of_the_command(self):
+        command = [sys.executable, str(SOURCE / "catalog/estimates/estimate.py"), "--shares"]
+        text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        _, parts, _, numbers, _, orderable = text.splitlines()[-2].split()
+        estimated, priced = re.findall(r"[0-9.]+ %", text.splitlines()[-1])
+        page = (SOURCE / "docs/explanation/data_quality.md").read_text(encoding="utf-8")
+        last = {}
+        for line in page[page.index("## Shares"):page.index("The collection is")].splitlines():
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            if len(cells) == 4:
+                last[cells[0]] = cells[3]
+        self.assertEqual(last["parts of the seed"], parts)
+        self.assertEqual(last["numbers and texts with a provenance"], numbers)
+        self.assertEqual(last["of these estimated"], estimated)
+        self.assertEqual(last["parts with a price"].split(",")[0], priced)
+        self.assertEqual(last["parts known to be products"], orderable)
 
 
 class Pumps(unittest.TestCase):

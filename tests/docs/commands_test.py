@@ -2,14 +2,15 @@
 """The commands of a page run as they stand there, and print what the page says.
 
 Each block ```sh of a page is run by bash, in order, in a folder of its own with a copy of the catalogue and of the
-examples. Each line of a block ```text that follows is in what was printed; a line that ends in … need only begin so,
-and a line … stands for any. Before a block <!-- test: … --> may say
+examples. The lines of a block ```text that follows were printed one after the other; a line that ends in … need only
+begin so, and a line … or a blank one stands for any that were printed in between. Before a block <!-- test: … --> may say
   serve                a service that runs until the page ends; port 8080 becomes a free one
   fails                it ends with a status that is not 0
   not run: REASON      it is not run here
 
 usage: commands_test.py CHECKOUT PROGRAM PAGE..."""
 import argparse
+import itertools
 import os
 import pathlib
 import re
@@ -77,19 +78,27 @@ class Folder:
             service.communicate()
 
 
+def is_printed(line, printed):
+    return printed == line or (line.endswith("…") and printed.startswith(line[:-1].rstrip()))
+
+
 def missing_lines(said, printed):
-    """Lines of the page that were not printed, in their order."""
-    rest = [line.rstrip() for line in printed.splitlines()]
-    for line in map(str.rstrip, said.splitlines()):
-        if line in ("", "…"):
+    """Of each run of lines without … or a blank one in between, the first that was not printed right after the one
+    before; of a run that was not printed at all, or not here, its first."""
+    rest = [line.rstrip() for line in printed.splitlines() if line.strip()]
+    lines = [line.rstrip() for line in said.splitlines()]
+    runs = [list(run) for is_text, run in itertools.groupby(lines, lambda line: line.strip() not in ("", "…")) if is_text]
+    for run in runs:
+        begins = [at for at, one in enumerate(rest) if is_printed(run[0], one)]
+        if not begins:
+            yield run[0]
             continue
-        begins = line.endswith("…")
-        found = next((at for at, one in enumerate(rest)
-                      if one == line or (begins and one.startswith(line[:-1].rstrip()))), None)
-        if found is None:
-            yield line
-        else:
-            rest = rest[found + 1:]
+        lengths = [next((k for k, line in enumerate(run) if at + k >= len(rest) or not is_printed(line, rest[at + k])),
+                        len(run)) for at in begins]
+        best = max(range(len(begins)), key=lambda i: lengths[i])
+        if lengths[best] < len(run):
+            yield run[lengths[best]]
+        rest = rest[begins[best] + lengths[best]:]
 
 
 def faults_of(page, folder, verbose):

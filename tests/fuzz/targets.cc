@@ -81,7 +81,8 @@ void Frame(std::string_view text) {
   if (state == RequestFrame::State::kComplete) {
     Require(last == state && whole.size() == piecewise.size() && whole.size() <= text.size());
     std::string bytes(text);
-    const std::size_t head = whole.TakeHead(bytes).size();
+    const std::size_t head = whole.head_size();
+    whole.TakeHead(bytes);
     Require(whole.TakeBody(bytes).size() + head <= whole.size());
     Require(bytes == text.substr(whole.size()));
   }

@@ -270,6 +270,40 @@ class TheCatalogue(unittest.TestCase):
         with self.assertRaisesRegex(plenum.InputError, "no family"):
             self.catalogue.import_table("wheel", frame)
 
+    def test_numbers_of_a_diagnosis_go_into_a_part(self):
+        part, field = "generic-lp-small-200kpa", "sonic_conductance_dm3_per_s_bar"
+        protocol = plenum.protocol(part, sampling_hz=50, bottle_uncertainty=0.002, catalog=self.folder.catalog)
+        self.assertEqual(protocol, command("protocol", part, "--sampling-hz", 50, "--bottle-uncertainty", 0.002))
+        self.assertTrue(any("Weigh" in step for step in protocol.steps))
+        promised = protocol.precision.set_index("field").loc[field, "uncertainty"]
+        self.assertEqual(protocol.template["schema"], "measurement/1")
+        with self.assertRaisesRegex(plenum.InputError, "sampling_hz"):
+            plenum.protocol(part, sampling_hz=0, catalog=self.folder.catalog)
+        with self.assertRaisesRegex(plenum.InputError, "no part has the id"):
+            plenum.protocol("no-such-part", catalog=self.folder.catalog)
+
+        diagnosis = plenum.diagnose(EXAMPLES / "bottle_test_simulated.csv", rig=EXAMPLES / "bottle_test_rig.json",
+                                    catalog=self.folder.catalog)
+        saved = self.catalogue.save_part(part, diagnosis, specimen="A")
+        self.assertEqual(saved["refused"], [])
+        written = {number["field"]: number for number in saved["numbers"]}
+        self.assertAlmostEqual(written[field]["value"], 0.53, delta=0.53 * 3 * written[field]["uncertainty"])
+        self.assertLess(written[field]["uncertainty"], 3 * promised)
+        self.assertEqual(self.catalogue[part][field], written[field]["value"])
+        self.assertEqual(self.catalogue.revision["number"], saved["revision"]["number"])
+        with self.assertRaisesRegex(plenum.InputError, "no part has the id"):
+            self.catalogue.save_part("no-such-part", diagnosis)
+        with self.assertRaisesRegex(plenum.InputError, "no answer of diagnose"):
+            self.catalogue.save_part(part, {"verdict": "explained"})
+
+    def test_numbers_read_by_hand_go_into_a_part(self):
+        part = "generic-lp-small-200kpa"
+        saved = self.catalogue.write_measured(part, {"mass_kg": "31 g"}, "1 %", how="letter scale", anyway=True)
+        self.assertEqual([number["value"] for number in saved["numbers"]], [0.031])
+        self.assertEqual(self.catalogue[part]["mass_kg"], 0.031)
+        with self.assertRaisesRegex(plenum.InputError, "uncertainty"):
+            self.catalogue.write_measured(part, {"mass_kg": "31 g"}, 2.0)
+
     def test_the_default_is_the_one_that_is_named(self):
         found = subprocess.run([sys.executable, "-c", "import plenum; print(plenum.Catalogue().path)"],
                                env={**os.environ, "PLENUM_CATALOG": str(self.folder.catalog)}, capture_output=True,

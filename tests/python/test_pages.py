@@ -10,7 +10,7 @@ os.environ.setdefault("MPLBACKEND", "Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 
-from places import ROOT, Folder  # noqa: E402
+from places import PROGRAM, ROOT, Folder  # noqa: E402
 
 TEN_LINES = 10
 
@@ -50,8 +50,17 @@ class Pages(unittest.TestCase):
     def test_a_first_diagnosis(self):
         self.run_notebook("first_diagnosis.ipynb")
 
+    def test_a_first_service(self):
+        shutil.copyfile(ROOT / "catalog.db", "catalog.db")
+        os.environ.setdefault("PLENUM_BINARY", PROGRAM)
+        self.run_notebook("first_service.ipynb")
+
+    def test_measuring_a_part(self):
+        shutil.copyfile(ROOT / "catalog.db", "catalog.db")
+        self.run_notebook("measure_a_part.ipynb")
+
     def test_every_notebook_is_run_here(self):
-        tested = {"first_design.ipynb", "first_diagnosis.ipynb"}
+        tested = {"first_design.ipynb", "first_diagnosis.ipynb", "first_service.ipynb", "measure_a_part.ipynb"}
         self.assertEqual({path.name for path in (ROOT / "docs" / "notebooks").glob("*.ipynb")}, tested)
 
 

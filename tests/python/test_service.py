@@ -50,6 +50,18 @@ class AtAService(unittest.TestCase):
         self.assertEqual(answer.verdict, "explained")
         self.assertEqual(list(answer.effects["effect"].unique()), ["creep"])
 
+    def test_a_part_is_measured_and_saved(self):
+        part = "generic-lp-small-200kpa"
+        self.assertEqual(self.service.protocol(part, sampling_hz=50),
+                         plenum.protocol(part, sampling_hz=50, catalog=self.folder.catalog))
+        answer = self.service.diagnose(EXAMPLES / "bottle_test_simulated.csv", rig=EXAMPLES / "bottle_test_rig.json",
+                                       save_part=part, specimen="A", progress=False)
+        saved = answer["saved_part"]
+        self.assertEqual((saved["part"], saved["specimen"], saved["refused"]), (part, "A", []))
+        row = plenum.Catalogue(self.folder.catalog)[part]
+        self.assertEqual({number["field"]: row[number["field"]] for number in saved["numbers"]},
+                         {number["field"]: number["value"] for number in saved["numbers"]})
+
     def test_an_exception_cancels_the_job(self):
         request = json.loads((EXAMPLES / "exosuit.json").read_text())
         request["objective"] = {"minimize": "volume_l"}

@@ -12,6 +12,7 @@ import sys
 import tomllib
 
 from includes import check_includes
+from listings import check_listings
 from namespaces import check_namespaces
 from pages import check_pages
 from sizes import check_sizes
@@ -29,6 +30,7 @@ def violations(root, rules):
         *check_sizes(root, sources, tests, rules["limits"]),
         *check_pages(root, sources),
         *check_namespaces(tests),
+        *check_listings(root),
     ]
 
 

@@ -43,6 +43,8 @@ HOUSE = {
     "check/check.h": '#include "search/values/design.h"\n',
     "api/README.md": "- `answer`: the answer.\n",
     "api/answer.h": '#include "search/walk/walker.h"\n',
+    "bench/CMakeLists.txt": "set(flow ${PROJECT_SOURCE_DIR}/model/flow)\nadd_library(a ${flow}/bend.cc b.cc)\n",
+    "bench/b.cc": "",
     "tests/model/tube_test.cc": '#include "model/flow/tube.h"\nnamespace tube_test {\n}\n',
 }
 
@@ -164,6 +166,10 @@ class Rules(unittest.TestCase):
     def test_namespaces_of_tests(self):
         self.expect({"tests/model/tube_test.cc": "\nnamespace {\n}\n"},
                     ("namespace", "tests/model/tube_test.cc"))
+
+    def test_listings_of_the_bench(self):
+        self.expect({"bench/CMakeLists.txt": "add_library(a ${PROJECT_SOURCE_DIR}/model/flow/bend.cc old.cc)\n"},
+                    ("listing", "bench/CMakeLists.txt"))
 
     def test_pages(self):
         self.expect({}, ("page", "model/air/README.md"), removed=["model/air/README.md"])

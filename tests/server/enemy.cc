@@ -119,7 +119,8 @@ class Breaker {
 
  private:
   void WalkObject(const Json& form, const Json& value, const std::string& pointer) {
-    if (!form.value("additionalProperties", true)) {
+    const Json& others = In(form, "additionalProperties");
+    if (others == false) {
       const std::string name = "no_such_field" + std::to_string(bad_.size());
       Put(pointer + "/" + name, 1);
     }
@@ -132,6 +133,9 @@ class Breaker {
       else if (!SaysNothing(inner))
         Replace(inner, place);
     }
+    if (!others.is_object()) return;
+    for (const auto& [name, inner] : value.items())
+      if (!In(form, "properties").contains(name)) Walk(others, pointer + "/" + Escaped(name));
   }
 
   void WalkArray(const Json& form, const Json& value, const std::string& pointer) {
@@ -187,6 +191,9 @@ Json FullDocument(const Json& schema, unsigned turn) {
     Json object = Json::object();
     for (const auto& [name, inner] : In(form, "properties").items())
       object[name] = FullDocument(inner, turn);
+    if (const Json& others = In(form, "additionalProperties");
+        others.is_object() && !others.empty())
+      object["x"] = FullDocument(others, turn);
     return object;
   }
   if (type == "array") {

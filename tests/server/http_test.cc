@@ -31,7 +31,7 @@ TEST_F(Http, RefusesUnknownPathsAndMethods) {
   ExpectProblem(client_->Post("/v1/wheels", "{}", kJson), 404);
   const auto wrong = client_->Put("/v1/designs", "{}", kJson);
   ExpectProblem(wrong, 405);
-  EXPECT_EQ(wrong->get_header_value("Allow"), "POST, GET");
+  EXPECT_EQ(wrong->get_header_value("Allow"), "POST, GET, HEAD, OPTIONS");
   ExpectProblem(client_->Get("/v1/parts/" + std::string(6000, 'x')), 414);
 }
 

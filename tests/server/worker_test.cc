@@ -127,6 +127,25 @@ TEST_P(OnServer, ASweepOutlastsAKilledWorkerAndTheTableIsThatOfAFile) {
   }
 }
 
+// Not ready is no full disk: the client may ask again.
+TEST_P(OnServer, AServerThatIsAwayIsAnsweredWith503) {
+  auto client = To(*one_);
+  ASSERT_EQ(client.Get("/v1/parts?limit=1")->status, 200);
+  test::WhilePostgresIsAway([&] {
+    for (const auto& answer : {client.Get("/v1/parts"), client.Get("/v1/parts/smc-t0403"),
+                               client.Post("/v1/designs", Exosuit(1).dump(), kJson),
+                               client.Post("/v1/parts", NewFitting("a").dump(), kJson)}) {
+      EXPECT_EQ(answer->status, 503) << answer->body;
+      EXPECT_EQ(answer->get_header_value("Retry-After"), "5");
+      EXPECT_THAT(answer->body, HasSubstr("cannot be reached; nothing was changed"));
+    }
+    EXPECT_EQ(client.Get("/readyz")->status, 503);
+    EXPECT_EQ(client.Get("/healthz")->status, 200);
+  });
+  EXPECT_EQ(client.Get("/v1/parts?limit=1")->status, 200);
+  EXPECT_EQ(client.Post("/v1/parts", NewFitting("a").dump(), kJson)->status, 201);
+}
+
 TEST_P(OnServer, AStoppedWorkerEndsItsJobFirst) {
   auto worker = Work();
   const std::string job = Post(*one_, Exosuit(100));

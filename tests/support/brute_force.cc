@@ -247,7 +247,7 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
 PartsKey KeyOf(const optimizer::Design& design) {
   PartsKey key;
   for (const optimizer::Choice& choice : design.parts)
-    if (choice.family != Family::kManifold)  // it follows from the others
+    if (choice.family != Family::kManifold && choice.family != Family::kCheckValve)  // no choices
       key.emplace_back(choice.id, choice.family == Family::kTubing
                                       ? 1
                                       : static_cast<int>(std::lround(choice.quantity)));

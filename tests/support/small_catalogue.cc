@@ -9,6 +9,7 @@
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
 #include "tests/support/late_closing.h"
+#include "tests/support/pumps/check_valves.h"
 
 namespace plenum::test {
 namespace {
@@ -312,13 +313,14 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   line.curve = std::make_shared<const optimizer::FillCurve>(
       optimizer::FillCurve{model::FlowTable(fill_series, model::MirrorPa(group.chamber)),
                            optimizer::MakeStrokePanels(problem, group_index, line.chamber)});
-  const double ambient_pa = problem.ambient.pressure_pa;
+  const double low_pa = group.chamber.low_pressure_pa;
+  const double rest_pa = low_pa > 0.0 ? low_pa : problem.ambient.pressure_pa;
   const double operating_pa = group.chamber.operating_pressure_pa;
-  line.fall_time_s = model::EmptyTime(
-      model::MakeSeries(line.exhaust, factor), line.chamber, operating_pa,
-      ambient_pa + problem.fall_fraction * (operating_pa - ambient_pa), temperature_k);
+  line.fall_time_s =
+      model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, operating_pa,
+                       rest_pa + problem.fall_fraction * (operating_pa - rest_pa), temperature_k);
   line.inflate_time_least_s = model::FillTime(fill_series, line.chamber, line.source_max_pa,
-                                              ambient_pa, operating_pa, temperature_k);
+                                              rest_pa, operating_pa, temperature_k);
   return line;
 }
 
@@ -377,6 +379,8 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
     const double feeds = FeedsByHand(problem);
     option.amounts = Share(feeds, option.amounts);
     option.amounts += JoinedFeeds(problem, quantity, stands_pa);
+    if (PumpsIn(parts, family)[index].check_valve_cracking_pa)
+      option.amounts += CheckValvesByHand(problem);
   } else if (family != Family::kBattery) {
     option.amounts += Joined(problem, quantity, stands_pa, asked);
   }

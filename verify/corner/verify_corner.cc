@@ -14,7 +14,6 @@ namespace plenum::verify {
 namespace {
 
 constexpr double kSlack = 1.0 + kSumTolerance;
-constexpr int kSlotsOfLine = 3;
 
 int RegulatorCount(const Problem& problem, const ProofPlan& plan) {
   return plan.own_regulators ? static_cast<int>(problem.groups.size()) : 1;
@@ -28,7 +27,13 @@ Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& st
       strokes_(strokes),
       shared_(AllAtOnce(problem) && !Evacuated(problem) && !plan.own_regulators),
       amounts_(AmountsOfAll(problem, plan)),
-      least_(plan.slots.size()) {
+      least_(plan.slots.size()),
+      least_lines_(
+          [this](const Ranges& ranges, int slot) {
+            const LeastAmounts& amounts = Least(ranges, slot);
+            return std::pair(amounts.least.objective, amounts.objective_most);
+          },
+          strokes) {
   if (plan.configuration == Configuration::kTankAndPump) fillers_.emplace(problem, plan);
   if (KeepsReservoir(plan.configuration)) pumps_.emplace(problem, plan, amounts_, strokes);
   if (IsDirect(plan.configuration)) direct_.emplace(problem, plan, amounts_, strokes);
@@ -98,17 +103,11 @@ bool Corners::CannotMate(const Ranges& ranges) {
   return !SourceMates(ranges);
 }
 
-bool Corners::TooMuch(const Ranges& ranges) {
+ItemAmounts Corners::LeastAmountsBut(const Ranges& ranges, int slot) {
   ItemAmounts sum;
-  for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s) {
-    const ItemAmounts& least = Least(ranges, s).least;
-    sum.mass_kg += least.mass_kg;
-    sum.volume_m3 += least.volume_m3;
-    sum.cost_eur += least.cost_eur;
-  }
-  return sum.mass_kg > problem_.mass_max_kg * kSlack ||
-         sum.volume_m3 * 1e3 > problem_.volume_max_l * kSlack ||
-         sum.cost_eur > problem_.cost_max_eur * kSlack;
+  for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s)
+    if (s != slot) sum += Least(ranges, s).least;
+  return sum;
 }
 
 // Of the best regulator and its lines.
@@ -175,7 +174,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
       return kUnlimited;
   }
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
-    chosen += LineExcess(ranges, g, plan_.own_regulators ? sources[g] : first);
+    chosen += ExcessBehind(ranges, g, plan_.own_regulators ? sources[g] : first);
   if (std::isinf(chosen)) return kUnlimited;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
@@ -205,25 +204,26 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   return LeastStores(ranges, inlets, {air_m3, energy_j}, sum);
 }
 
-double Corners::LineExcess(const Ranges& ranges, int g, const SourceBounds& source) {
-  const int slot = kSlotsOfLine * g;  // in the order of LineFamilies()
+double Corners::ExcessBehind(const Ranges& ranges, int g, const SourceBounds& source) {
   const auto& regulators = ranges[RegulatorSlot(g)];
-  const auto [entry, fresh] = lines_.try_emplace(
-      {g, source.high_pa, {ranges[slot], ranges[slot + 1], ranges[slot + 2], regulators}}, 0.0);
-  if (!fresh) return entry->second;
-  const LineChoices choices{{slot, slot + 1, slot + 2},
-                            [&](const Ranges& part, int of) {
-                              const LeastAmounts& amounts = Least(part, of);
-                              return std::pair(amounts.least.objective, amounts.objective_most);
-                            },
-                            [&](const Ranges& part) {
-                              const BestLine& line = strokes_.Line(part, g);
-                              return !line.mates || !line.works ||
-                                     std::isinf(InflateSeconds(line, g, source, regulators));
-                            }};
-  double excess = LeastLine(choices, ranges);
-  for (const int of : choices.slots) excess -= Least(ranges, of).least.objective;
-  return entry->second = excess;
+  return least_lines_.Excess(ranges, g,
+                             {{0.0, source.high_pa}, regulators, [&](const BestLine& line) {
+                                return std::isinf(InflateSeconds(line, g, source, regulators));
+                              }});
+}
+
+double Corners::ExcessOnPumps(const Ranges& ranges, const std::vector<const BestLine*>& lines) {
+  std::pair<double, double> window{0.0, pumps_->HighestPa(ranges)};
+  for (const BestLine* line : lines)
+    window = {std::max(window.first, line->source_low_pa),
+              std::min(window.second, line->source_high_pa)};
+  double excess = 0.0;
+  for (int g = 0; g < static_cast<int>(lines.size()); ++g)
+    excess += least_lines_.Excess(ranges, g, {window, {}, [&](const BestLine& line) {
+                                                return line.source_low_pa > window.second ||
+                                                       line.source_high_pa < window.first;
+                                              }});
+  return excess;
 }
 
 double Corners::InflateSeconds(const BestLine& line, int g, const SourceBounds& source,
@@ -241,7 +241,7 @@ double Corners::InflateSeconds(const BestLine& line, int g, const SourceBounds& 
   }
   const model::Series fill = model::MakeSeries(elements, FactorOf(problem_, plan_.configuration));
   const auto seconds = [&](double to_pa) {
-    return model::FillTime(fill, line.chamber, source.high_pa, problem_.ambient.pressure_pa, to_pa,
+    return model::FillTime(fill, line.chamber, source.high_pa, model::RestPa(line.chamber), to_pa,
                            problem_.ambient.temperature_k, source.flow_max / count);
   };
   const double inflate_s = seconds(group.chamber.operating_pressure_pa);
@@ -376,7 +376,7 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
     if (!SpecOf(plan_.slots[s].family).by_need) chosen += least;
   }
   if (sum > enough) return sum;
-  if (TooMuch(ranges)) return kUnlimited;
+  if (TooMuch(problem_, LeastAmountsBut(ranges, -1), kSumTolerance)) return kUnlimited;
   std::vector<const BestLine*> lines;
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     lines.push_back(&strokes_.Line(ranges, g));
@@ -384,8 +384,11 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
   }
   if (!SourceMates(ranges)) return kUnlimited;
   if (direct_) return direct_->Least(ranges, lines, chosen);
-  return pumps_ ? pumps_->Least(ranges, lines, chosen, sum, enough)
-                : LeastRegulated(ranges, chosen);
+  if (!pumps_) return LeastRegulated(ranges, chosen);
+  const double excess = ExcessOnPumps(ranges, lines);
+  if (sum + excess > enough) return sum + excess;
+  const ItemAmounts others = LeastAmountsBut(ranges, SlotOf(plan_, Family::kReservoir, -1));
+  return pumps_->Least(ranges, lines, others, {chosen + excess, sum + excess, enough});
 }
 
 }  // namespace plenum::verify

@@ -9,6 +9,7 @@
 
 #include "verify/corner/verify_best.h"
 #include "verify/corner/verify_direct.h"
+#include "verify/corner/verify_least_line.h"
 #include "verify/corner/verify_line.h"
 #include "verify/corner/verify_pump.h"
 #include "verify/design/verify_choice.h"
@@ -44,7 +45,7 @@ class Corners {
   bool SourceMates(const Ranges& ranges, const ProofItem& pump_or_regulator) const;
   // Of all groups, or where they have their own of this one.
   int RegulatorSlot(int group) const;
-  bool TooMuch(const Ranges& ranges);
+  ItemAmounts LeastAmountsBut(const Ranges& ranges, int slot);  // that one left out
   double LeastRegulated(const Ranges& ranges, double chosen);
   struct Stored {
     double air_m3;    // per cycle
@@ -71,8 +72,10 @@ class Corners {
   double LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored, double sum);
 
   // By how much more than its parts at their least a line of the group weighs that works alone
-  // behind its regulator.
-  double LineExcess(const Ranges& ranges, int group, const SourceBounds& source);
+  // behind its regulator; and the lines of all groups, each with some reservoir's pressure at which
+  // the others' lines work as well.
+  double ExcessBehind(const Ranges& ranges, int group, const SourceBounds& source);
+  double ExcessOnPumps(const Ranges& ranges, const std::vector<const BestLine*>& lines);
   // Of the most actuators of a group that fill at once behind the regulator, at least; +∞: later
   // than its limits.
   double InflateSeconds(const BestLine& line, int group, const SourceBounds& source,
@@ -86,7 +89,7 @@ class Corners {
   std::vector<std::unordered_map<std::uint64_t, LeastAmounts>> least_;  // per slot, by range
   std::map<SlotRange, Packs> packs_;
   std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
-  std::map<std::tuple<int, double, std::array<std::pair<int, int>, 4>>, double> lines_;
+  LeastLines least_lines_;
   std::optional<Pumps> pumps_;
   std::optional<PumpChoices> fillers_;
   std::optional<DirectPumps> direct_;

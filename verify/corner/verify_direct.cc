@@ -75,6 +75,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
     stroke.inflate_s += flow > 0.0 ? air_m3 / flow : kUnlimited;
     const std::size_t cell = choices_.CellOf(single ? under_pa : low_pa);
     stroke.pump_j += air_m3 * cells.energy_j_per_m3[cell];
+    if (!cells.holding_w.empty()) stroke.beyond_j += air_m3 * cells.beyond_j_per_m3[g][cell];
   };
   double low_pa = from_pa;
   for (int i = 1; i <= kPanels; ++i) {
@@ -155,9 +156,14 @@ double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine
     if (stroke.inflate_s > fill_max_s * kSlack ||
         stroke.rise_s > problem_.groups[g].rise_time_max_s * kSlack)
       return kUnlimited;
-    on_s[own_pumps ? g : 0] += strokes * stroke.inflate_s;
-    beyond_j += strokes * unit.feeds * stroke.pump_j;
-    if (line.all_hold && !problem_.groups[g].fed_past_valve)
+    double run_s = strokes * stroke.inflate_s, pump_j = strokes * stroke.pump_j;
+    if (PumpsHoldOn(problem_)) {
+      run_s = RunSeconds(problem_, units_, unit);
+      pump_j = std::max(pump_j, run_s * cells.holding_w[g] + strokes * stroke.beyond_j);
+    }
+    on_s[own_pumps ? g : 0] += run_s;
+    beyond_j += unit.feeds * pump_j;
+    if (line.all_hold && !problem_.groups[g].fed_past_valve && !PumpsHoldOn(problem_))
       beyond_j += strokes * share * line.coil_w * stroke.inflate_s;
     coil_w += share * line.coil_w;
     coils_j += share * line.coil_w * line.coil_s;

@@ -29,6 +29,7 @@ class DirectPumps {
  private:
   struct Stroke {
     double rise_s = 0.0, inflate_s = 0.0, pump_j = 0.0, node_pa = 0.0;
+    double beyond_j = 0.0;  // of filling, beyond what holding takes for as long
   };
   using Range = PumpChoices::Range;
 

@@ -5,22 +5,46 @@
 
 #include <array>
 #include <functional>
+#include <map>
+#include <tuple>
 #include <utility>
 
+#include "verify/corner/verify_known_strokes.h"
 #include "verify/corner/verify_ranges.h"
 
 namespace plenum::verify {
 
-struct LineChoices {
-  std::array<int, 3> slots;  // of one group
+// Keeps what it found: boxes of one tree share most of their lines.
+class LeastLines {
+ public:
   // Share of the objective of a slot's choices, the least and the most of them.
-  std::function<std::pair<double, double>(const Ranges&, int slot)> share;
-  std::function<bool(const Ranges&)> fails;  // every line of the box
-};
+  using Share = std::function<std::pair<double, double>(const Ranges&, int slot)>;
+  // What a line must do, and what that depends on: source pressures and regulators, if any.
+  struct Ask {
+    std::pair<double, double> window_pa;
+    std::pair<int, int> regulators;
+    std::function<bool(const BestLine&)> fails;  // the best of a box: every line of it
+  };
 
-// Sum over the slots, at least, of a line in the box that does not fail; +∞ where all do. After so
-// many looks the least of what is not looked at.
-double LeastLine(const LineChoices& choices, const Ranges& ranges);
+  LeastLines(Share share, KnownStrokes& strokes) : share_(std::move(share)), strokes_(strokes) {}
+
+  // By how much more than its parts at their least, at least, a line of the group in the box weighs
+  // that works and does not fail; +∞ where all do. After so many looks the least of what is not
+  // looked at.
+  double Excess(const Ranges& ranges, int group, const Ask& ask);
+
+ private:
+  using Slots = std::array<int, 3>;
+  using Key = std::tuple<int, std::pair<double, double>, std::array<std::pair<int, int>, 4>>;
+
+  double ShareOf(const Ranges& ranges, const Slots& slots) const;
+  int SlotToDivide(const Ranges& ranges, const Slots& slots) const;
+  double Least(const Ranges& ranges, int group, const Slots& slots, const Ask& ask) const;
+
+  Share share_;
+  KnownStrokes& strokes_;
+  std::map<Key, double> known_;
+};
 
 }  // namespace plenum::verify
 

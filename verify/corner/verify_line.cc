@@ -120,9 +120,15 @@ double PressureAt(const Problem& problem, int group, double fraction) {
   return ambient_pa + fraction * (problem.groups[group].chamber.operating_pressure_pa - ambient_pa);
 }
 
+double FallenPa(const Problem& problem, int group) {
+  const model::Chamber& chamber = problem.groups[group].chamber;
+  const double rest_pa = model::RestPa(chamber);
+  return rest_pa + problem.fall_fraction * (chamber.operating_pressure_pa - rest_pa);
+}
+
 double Drawn(const Problem& problem, int group, const model::Chamber& chamber, double pressure_pa) {
-  return problem.groups[group].count * (model::Content(chamber, pressure_pa) -
-                                        model::Content(chamber, problem.ambient.pressure_pa));
+  return problem.groups[group].count *
+         (model::Content(chamber, pressure_pa) - model::Content(chamber, model::RestPa(chamber)));
 }
 
 BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int g) {
@@ -149,14 +155,13 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   if (group.fed_past_valve) best.fill.erase(best.fill.begin());
   std::reverse(Evacuated(problem) ? best.fill.begin() : exhaust.begin(),
                Evacuated(problem) ? best.fill.end() : exhaust.end());
-  const double fall_s =
-      model::EmptyTime(model::MakeSeries(exhaust, factor), best.chamber, operating_pa,
-                       PressureAt(problem, g, problem.fall_fraction), temperature_k);
+  const double fall_s = model::EmptyTime(model::MakeSeries(exhaust, factor), best.chamber,
+                                         operating_pa, FallenPa(problem, g), temperature_k);
   if (fall_s > std::min(group.fall_time_max_s, VentWindow(problem, g)) * slack) return best;
 
   best.fill_series = model::MakeSeries(best.fill, factor);
   const auto seconds = [&](double source_pa, double to_pa) {
-    return model::FillTime(best.fill_series, best.chamber, source_pa, problem.ambient.pressure_pa,
+    return model::FillTime(best.fill_series, best.chamber, source_pa, model::RestPa(best.chamber),
                            to_pa, temperature_k);
   };
   const auto fast_enough = [&](double source_pa) {
@@ -177,7 +182,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   best.filling.flow = model::FlowTable(best.fill_series, model::MirrorPa(best.chamber));
   const double target_pa = PressureAt(problem, g, problem.rise_fraction);
   best.filling.to_target =
-      KnotsOf(problem, best, g, problem.ambient.pressure_pa, target_pa, kPanelsToTarget);
+      KnotsOf(problem, best, g, model::RestPa(best.chamber), target_pa, kPanelsToTarget);
   best.filling.to_operating = KnotsOf(problem, best, g, target_pa, operating_pa, kPanelsBeyond);
   best.works = true;
   return best;

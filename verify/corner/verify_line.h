@@ -50,6 +50,7 @@ int SlotOf(const ProofPlan& plan, Family family, int group);
 
 // Pressure after a share of the way from ambient to the operating pressure.
 double PressureAt(const Problem& problem, int group, double fraction);
+double FallenPa(const Problem& problem, int group);  // where its fall ends
 
 // Content of all chambers of a group above that at rest, Pa·m³, with the given dead volume.
 double Drawn(const Problem& problem, int group, const model::Chamber& chamber, double pressure_pa);

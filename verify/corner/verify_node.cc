@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSlack = 1e-4;  // of simulated strokes and of the flow table
 constexpr int kPanels = 16;
-constexpr std::array kShares{0.0, 0.4, 0.7, 0.9, 1.0};  // μ in parts of ambient
+constexpr std::array kShares{0.0, 0.4, 0.7, 0.9, 1.0};  // μ in parts of where strokes begin
 constexpr double kRatioWidth = 1e-3;
 
 // h(P), or a little less.
@@ -32,21 +32,21 @@ double LeastPerAir(const model::FlowTable& flow, double mu_per_pa) {
 
 double Air(const Problem& problem, const BestLine& line, double pressure_pa) {
   return model::StandardVolume(model::Content(line.chamber, pressure_pa) -
-                                   model::Content(line.chamber, problem.ambient.pressure_pa),
+                                   model::Content(line.chamber, model::RestPa(line.chamber)),
                                problem.ambient.temperature_k);
 }
 
 // Of the panel's air all at its lower end, where h is least.
 double LeastMean(const Problem& problem, const BestLine& line, double to_pa, double time_s) {
   if (!std::isfinite(time_s)) return 0.0;
-  const double ambient_pa = problem.ambient.pressure_pa;
+  const double rest_pa = model::RestPa(line.chamber);
   double most_pa = 0.0;
   for (const double share : kShares) {
-    const double mu_pa = share * ambient_pa;
+    const double mu_pa = share * rest_pa;
     double sum = 0.0;
     for (int i = 0; i < kPanels; ++i) {
-      const double from_pa = ambient_pa + (to_pa - ambient_pa) * i / kPanels;
-      const double next_pa = ambient_pa + (to_pa - ambient_pa) * (i + 1) / kPanels;
+      const double from_pa = rest_pa + (to_pa - rest_pa) * i / kPanels;
+      const double next_pa = rest_pa + (to_pa - rest_pa) * (i + 1) / kPanels;
       sum += (Air(problem, line, next_pa) - Air(problem, line, from_pa)) *
              LeastPerAir(line.filling.flow, mu_pa / from_pa);
     }

@@ -99,11 +99,18 @@ double Pumps::FirstFill(const Case& c, double stop_pa, Volumes v) const {
   return energy_j;
 }
 
-double Pumps::MadeObjective(double volume_m3, double stop_pa) const {
+ItemAmounts Pumps::Made(double volume_m3, double stop_pa) const {
   const model::MadeReservoir made =
       model::MakeReservoir(volume_m3, stop_pa - problem_.ambient.pressure_pa);
-  return problem_.objective.mass_kg * made.mass_kg +
-         problem_.objective.volume_l * made.body_volume_m3 * 1e3;
+  return {.mass_kg = made.mass_kg,
+          .volume_m3 = made.body_volume_m3,
+          .objective = problem_.objective.mass_kg * made.mass_kg +
+                       problem_.objective.volume_l * made.body_volume_m3 * 1e3};
+}
+
+bool Pumps::IsTooMuch(const Case& c, const ItemAmounts& reservoir) const {
+  ItemAmounts all = c.others;
+  return TooMuch(problem_, all += reservoir, kSumTolerance);
 }
 
 // Battery and energy of pumps, and a made-to-measure reservoir built for where they stop, that find
@@ -151,7 +158,7 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
   if (on_s * problem_.frequency_hz > c.pumps.duty_max * kSlack) return kUnlimited;
   const double beyond_j = first_fill_j + problem_.actuations * (pump_j + c.inflating_j);
   const double coils_j = problem_.actuations * c.coil_j;
-  const double made = c.made ? MadeObjective(v.low_m3, stop_pa) : 0.0;
+  const double made = c.made ? Made(v.low_m3, stop_pa).objective : 0.0;
   return made + c.packs.Least(beyond_j + coils_j) +
          problem_.objective.energy_wh * beyond_j / optimizer::kJoulePerWattHour;
 }
@@ -164,6 +171,7 @@ double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
     high_pa = std::min(high_pa, line->source_high_pa);
   }
   if (!(low_pa <= high_pa)) return kUnlimited;
+  if (c.made && IsTooMuch(c, Made(v.low_m3, low_pa))) return kUnlimited;
   const double parts = c.chosen + reservoir;
   return bursts_ > 0 ? parts + LeastTogether(c, c.enough - parts, low_pa, high_pa, v)
                      : parts + LeastInTurns(c, c.enough - parts, low_pa, high_pa, v);
@@ -180,6 +188,8 @@ double Pumps::LeastTogether(const Case& c, double enough, double low_pa, double 
       if (strokes_.TooSlow(QueryOf(c, g, v), p)) return true;
     return false;
   };
+  for (int g = 0; g < groups; ++g)
+    if (strokes_.Known(QueryOf(c, g, v)).too_slow_pa >= high_pa) return kUnlimited;
   double bound = rest(low_pa);
   if (bound > enough || !too_slow(low_pa)) return bound;
   if (too_slow(high_pa)) return kUnlimited;
@@ -256,8 +266,8 @@ double Pumps::LeastMade(const Case& c, Volumes v) {
   return settled(low) ? std::min(low, LeastMade(c, {middle_m3, v.high_m3})) : least;
 }
 
-double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& lines, double chosen,
-                    double floor, double enough) {
+double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& lines,
+                    const ItemAmounts& others, const Objectives& objectives) {
   Case c{choices_.CellsIn(ranges[compressor_]),
          PacksIn(ranges[compressor_], ranges[battery_]),
          lines,
@@ -265,8 +275,9 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
          0.0,
          0.0,
          0.0,
-         chosen,
-         enough,
+         others,
+         objectives.chosen,
+         objectives.enough,
          kUnlimited,
          false};
   for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
@@ -284,7 +295,8 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
     c.drawn.push_back(&of_all);
   double least = kUnlimited;
   for (int i = ranges[reservoir_].first; i < ranges[reservoir_].second; ++i) {
-    if (std::isfinite(least) && least <= enough) return floor;  // no closer look is asked for
+    if (std::isfinite(least) && least <= c.enough)
+      return objectives.floor;  // no closer look is asked for
     const ProofItem& item = plan_.slots[reservoir_].choices[i];
     c.made = item.part < 0;
     if (c.made) {
@@ -293,6 +305,7 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
           least, LeastMade(c, {model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3}));
       continue;
     }
+    if (IsTooMuch(c, amounts_[reservoir_][i])) continue;
     const model::Reservoir& reservoir = problem_.parts.reservoirs[item.part];
     c.reservoir_pa = reservoir.pressure_max_pa;
     const double volume_m3 = item.quantity * reservoir.volume_m3;

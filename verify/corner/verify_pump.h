@@ -42,10 +42,19 @@ class Pumps {
   Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& amounts,
         KnownStrokes& strokes);
 
-  // Bound on the objective of the box whose lines and compressors come to `chosen` and whose parts
-  // to `floor`, which is returned where the bound is not above `enough`.
-  double Least(const Ranges& ranges, const std::vector<const BestLine*>& lines, double chosen,
-               double floor, double enough);
+  // That any pumps of the box can keep a reservoir at.
+  double HighestPa(const Ranges& ranges) {
+    return choices_.CellsIn(ranges[compressor_]).highest_pa;
+  }
+
+  // Bound on the objective of a box. `others`: what all but the reservoir come to at least.
+  struct Objectives {
+    double chosen;  // of lines and compressors, at least
+    double floor;   // of all parts, which is given where the bound is not above `enough`
+    double enough;
+  };
+  double Least(const Ranges& ranges, const std::vector<const BestLine*>& lines,
+               const ItemAmounts& others, const Objectives& objectives);
 
  private:
   struct Case {  // of reservoirs
@@ -57,6 +66,7 @@ class Pumps {
     std::vector<const std::vector<double>*> drawn;
     double air_m3;               // of a burst, or of a cycle where there are none
     double coil_j, inflating_j;  // per cycle
+    const ItemAmounts& others;
     double chosen, enough;
     double reservoir_pa;  // most that it stands
     bool made;            // to measure
@@ -65,7 +75,8 @@ class Pumps {
 
   const Packs& PacksIn(Range compressors, Range batteries);
   const std::vector<double>& DrawnBy(const BestLine& line, int group);
-  double MadeObjective(double volume_m3, double stop_pa) const;
+  ItemAmounts Made(double volume_m3, double stop_pa) const;  // of a made-to-measure reservoir
+  bool IsTooMuch(const Case& c, const ItemAmounts& reservoir) const;
   double FirstFill(const Case& c, double stop_pa, Volumes v) const;
   KnownStrokes::Query QueryOf(const Case& c, int group, Volumes v) const;
   double LeastTogether(const Case& c, double enough, double low_pa, double high_pa, Volumes v);

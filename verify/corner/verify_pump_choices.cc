@@ -14,6 +14,28 @@ double LeastPower(const model::CompressorCurve& curve, double low_pa, double hig
   return least_w;
 }
 
+// Of one pump, at the lower ends of the cells. It may stand at its highest pressure, whatever
+// flows: where it takes less there than while it holds nothing is known.
+std::vector<double> BeyondHolding(const model::CompressorCurve& curve, double holding_w,
+                                  const std::vector<double>& pressures_pa) {
+  const double highest_pa = model::HighestPressure(curve);
+  std::vector<double> beyond(kPumpCells, kUnlimited);
+  double least = model::ElectricalPower(curve, highest_pa) < holding_w ? -kUnlimited : kUnlimited;
+  for (std::size_t i = kPumpCells; i-- > 0;) {
+    const double low_pa = pressures_pa[i], high_pa = std::min(pressures_pa[i + 1], highest_pa);
+    if (low_pa <= highest_pa) {
+      const double more_w = LeastPower(curve, low_pa, high_pa) - holding_w;
+      const model::MonotoneCurve& flow = curve.free_air_m3_per_s;
+      // Less power counts the more the longer it lasts, more power the less.
+      const double flows = flow(std::max(flow.front(), more_w < 0.0 ? high_pa : low_pa));
+      if (more_w < 0.0 || flows > 0.0)
+        least = std::min(least, flows > 0.0 ? more_w / flows : -kUnlimited);
+    }
+    beyond[i] = least;
+  }
+  return beyond;
+}
+
 }  // namespace
 
 double ContentPerVolume(const Problem& problem) {
@@ -55,6 +77,12 @@ PumpCells PumpChoices::CellsOf(const ProofItem& item) const {
   double operating_pa = problem_.ambient.pressure_pa;
   for (const ActuatorGroup& group : problem_.groups)
     operating_pa = std::max(operating_pa, group.chamber.operating_pressure_pa);
+  for (const ActuatorGroup& group : problem_.groups) {
+    if (!group.held_by_pumps) break;
+    const double one_w = model::ElectricalPower(curve, group.chamber.operating_pressure_pa);
+    cells.holding_w.push_back(item.quantity * one_w);
+    cells.beyond_j_per_m3.push_back(BeyondHolding(curve, one_w, pressures_pa_));
+  }
   cells.highest_pa = model::HighestPressure(curve);
   cells.duty_max = compressor.duty_max;
   cells.current_a =
@@ -78,6 +106,12 @@ const PumpCells& PumpChoices::CellsIn(Range range) {
     best.highest_pa = std::max(best.highest_pa, cells.highest_pa);
     best.duty_max = std::max(best.duty_max, cells.duty_max);
     best.current_a = std::min(best.current_a, cells.current_a);
+    for (std::size_t g = 0; g < best.holding_w.size(); ++g) {
+      best.holding_w[g] = std::min(best.holding_w[g], cells.holding_w[g]);
+      for (std::size_t i = 0; i < kPumpCells; ++i)
+        best.beyond_j_per_m3[g][i] =
+            std::min(best.beyond_j_per_m3[g][i], cells.beyond_j_per_m3[g][i]);
+    }
   }
   for (std::size_t i = kPumpCells - 1; i-- > 0;)
     best.energy_j_per_m3[i] = std::min(best.energy_j_per_m3[i], best.energy_j_per_m3[i + 1]);

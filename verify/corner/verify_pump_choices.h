@@ -25,6 +25,10 @@ struct PumpCells {
   // cells.
   std::vector<double> filling_j_per_m3;
   double highest_pa = 0.0, duty_max = 0.0, current_a = kUnlimited;
+  // Where pumps hold on, of each group: what they take at its operating pressure; and what air
+  // takes that flows at a pressure, beyond that power for as long, made non-falling.
+  std::vector<double> holding_w;
+  std::vector<std::vector<double>> beyond_j_per_m3;
 };
 
 class PumpChoices {

@@ -114,16 +114,26 @@ Expected ExpectedRow(const Problem& problem, const Design& design, const Choice&
 void CheckJoints(const Problem& problem, const Design& design, Findings& findings) {
   JointRows needed = JointsOf(problem, design);
   for (const Choice& row : design.parts) {
-    if (row.family != Family::kManifold) continue;
-    const auto found = needed.find(FindPart(problem.parts, row.family, row.id));
+    if (!SpecOf(row.family).joins) continue;
+    const auto found = needed.find({row.family, FindPart(problem.parts, row.family, row.id)});
     if (found != needed.end() && row.group < 0 && found->second == row.quantity)
       needed.erase(found);
     else
       findings.push_back({"parts", Row(row) + " is not what joins the lines or the source"});
   }
-  for (const auto& [manifold, pieces] : needed)
-    findings.push_back({"parts", "manifold " + problem.parts.manifolds[manifold].basics.id +
+  for (const auto& [row, pieces] : needed)
+    findings.push_back({"parts", std::string(SpecOf(row.first).name) + " " +
+                                     BasicsOf(problem.parts, row.first, row.second).id +
                                      ", which lines or pieces of the source need, is missing"});
+}
+
+// Pumps that let air back have a check valve, and their curves have lost what it asks to open.
+void CheckCracking(const Problem& problem, const Assembly& assembly, Findings& findings) {
+  if (!assembly.compressor || !assembly.compressor->check_valve_cracking_pa) return;
+  const model::CheckValve* valve = CheckValveFor(problem);
+  if (!valve || valve->cracking_pressure_pa != *assembly.compressor->check_valve_cracking_pa)
+    findings.push_back({"parts", assembly.compressor->basics.id +
+                                     " lets air back, and is not what it is behind a check valve"});
 }
 
 bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
@@ -144,8 +154,8 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   }
   for (const model::Regulator* regulator : a.regulators) add(Times(1, regulator->basics));
   const auto join = [&](const JointRows& rows) {
-    for (const auto& [manifold, pieces] : rows)
-      add(Times(pieces, problem.parts.manifolds[manifold].basics));
+    for (const auto& [row, pieces] : rows)
+      add(Times(pieces, BasicsOf(problem.parts, row.first, row.second)));
   };
   const bool shared = problem.pump_feed == PumpFeed::kShared;
   if (!a.owns() && shared) join(JointOfLines(problem));
@@ -282,6 +292,7 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
       a.tanks = item.quantity;
       return put(parts.tanks, a.tank);
     case Family::kManifold:
+    case Family::kCheckValve:
       return;
   }
 }
@@ -296,7 +307,7 @@ std::optional<Assembly> Assemble(const Problem& problem, const Design& design, F
         {"parts", std::string(Name(design.configuration)) + " is not a requested configuration"});
   std::set<std::pair<Family, int>> placed;
   for (const Choice& choice : design.parts) {
-    if (choice.family == Family::kManifold) continue;
+    if (SpecOf(choice.family).joins) continue;
     const bool in_line = choice.group >= 0;
     const auto item = ItemOf(problem, choice);
     const bool own = in_line && choice.family == Family::kRegulator;
@@ -336,6 +347,7 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
           {"parts", "fitting " + line.fitting->basics.id + " does not fit its tube " + "or valve"});
   if (!Fit(problem, assembly)) findings.push_back({"parts", "parts of the source do not fit"});
   CheckJoints(problem, design, findings);
+  CheckCracking(problem, assembly, findings);
   Totals sum;
   double cost_eur = 0.0;
   bool priced = true;

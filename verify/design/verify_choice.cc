@@ -13,8 +13,8 @@ namespace plenum::verify {
 namespace {
 
 void Add(const Problem& problem, const JointRows& rows, double share, ItemAmounts& sum) {
-  for (const auto& [manifold, pieces] : rows) {
-    const model::PartBasics& basics = problem.parts.manifolds[manifold].basics;
+  for (const auto& [row, pieces] : rows) {
+    const model::PartBasics& basics = BasicsOf(problem.parts, row.first, row.second);
     sum.mass_kg += share * pieces * basics.mass_kg;
     sum.volume_m3 += share * pieces * basics.body_volume_m3;
     sum.cost_eur += share * pieces * basics.cost_eur.value_or(0.0);
@@ -51,6 +51,21 @@ void AddJoints(const Problem& problem, const Layout& layout, const ProofSlot& sl
 }
 
 }  // namespace
+
+ItemAmounts& operator+=(ItemAmounts& sum, const ItemAmounts& more) {
+  sum.mass_kg += more.mass_kg;
+  sum.volume_m3 += more.volume_m3;
+  sum.cost_eur += more.cost_eur;
+  sum.objective += more.objective;
+  return sum;
+}
+
+bool TooMuch(const Problem& problem, const ItemAmounts& least, double room) {
+  const double slack = 1.0 + room;
+  return least.mass_kg > problem.mass_max_kg * slack ||
+         least.volume_m3 * 1e3 > problem.volume_max_l * slack ||
+         least.cost_eur > problem.cost_max_eur * slack;
+}
 
 ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const ProofSlot& slot,
                           const ProofItem& item) {

@@ -13,6 +13,11 @@ struct ItemAmounts {
   double mass_slack_kg = 0.0, volume_slack_m3 = 0.0;  // of tolerances
 };
 
+ItemAmounts& operator+=(ItemAmounts& sum, const ItemAmounts& more);  // all but the slacks
+// Whether parts that come to so much are over a limit on amounts, whatever else there is, by more
+// than `room`, relative.
+bool TooMuch(const Problem& problem, const ItemAmounts& least, double room);
+
 // All pieces of a choice, gas included; the least of a made-to-measure reservoir.
 ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const ProofSlot& slot,
                           const ProofItem& item);

@@ -10,7 +10,7 @@ namespace plenum::verify {
 Ids IdsOf(const Design& design) {
   Ids ids;
   for (const Choice& choice : design.parts)
-    if (choice.family != Family::kManifold)  // it follows from the others
+    if (!SpecOf(choice.family).joins)  // it follows from the others
       ids.emplace_back(choice.id, choice.group < 0 ? static_cast<int>(choice.quantity) : 1);
   return ids;
 }
@@ -43,7 +43,7 @@ TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts) {
 TieKey TieKeyOf(const Problem& problem, const Design& design) {
   TieKey key{{}, IdsOf(design)};
   for (const Choice& row : design.parts) {
-    if (row.family == Family::kManifold) continue;  // it counts with what it joins
+    if (SpecOf(row.family).joins) continue;  // it counts with what it joins
     const bool made = row.family == Family::kReservoir && row.id == "custom";
     const ProofItem item{
         made ? -2 : FindPart(problem.parts, row.family, row.id),

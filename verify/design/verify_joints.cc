@@ -1,5 +1,6 @@
 #include "verify/design/verify_joints.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/physics/storage.h"
@@ -47,7 +48,7 @@ JointRows Join(const Problem& problem, int joined, double pressure_pa, double as
     if (prefers > 0 || (prefers == 0 && Before(joined, rows[i], rows[best]))) best = i;
   }
   if (best < 0) return {};
-  return {{best, static_cast<int>(Pieces(joined, rows[best]))}};
+  return {{{Family::kManifold, best}, static_cast<int>(Pieces(joined, rows[best]))}};
 }
 
 double HighestOperatingPa(const Problem& problem) {
@@ -124,6 +125,27 @@ JointRows JointOfRegulatorsAtMains(const Problem& problem) {
               Asked(problem));
 }
 
+const model::CheckValve* CheckValveFor(const Problem& problem) {
+  const model::CheckValve* best = nullptr;
+  if (problem.pump_feed != PumpFeed::kPerActuator) return best;
+  const auto serves = [&](const model::CheckValve& row) {
+    if (AsksForPrices(problem) && !row.basics.cost_eur) return false;
+    return std::all_of(problem.groups.begin(), problem.groups.end(), [&](const auto& group) {
+      return row.pressure_max_pa >= group.chamber.operating_pressure_pa &&
+             row.sonic_conductance_m3_per_s_pa >= group.joint_conductance_m3_per_s_pa / group.count;
+    });
+  };
+  const auto before = [](const model::PartBasics& a, const model::PartBasics& b) {
+    if (a.cost_eur.has_value() != b.cost_eur.has_value()) return a.cost_eur.has_value();
+    if (a.mass_kg != b.mass_kg) return a.mass_kg < b.mass_kg;
+    const double cost_a = a.cost_eur.value_or(0.0), cost_b = b.cost_eur.value_or(0.0);
+    return cost_a != cost_b ? cost_a < cost_b : a.id < b.id;
+  };
+  for (const model::CheckValve& row : problem.parts.check_valves)
+    if (serves(row) && (!best || before(row.basics, best->basics))) best = &row;
+  return best;
+}
+
 JointRows JointsOfFeeds(const Problem& problem, Family family, int part, int pumps) {
   JointRows all;
   for (const ActuatorGroup& group : problem.groups) {
@@ -131,8 +153,12 @@ JointRows JointsOfFeeds(const Problem& problem, Family family, int part, int pum
     const JointRows one = each ? Join(problem, pumps + 1, group.chamber.operating_pressure_pa,
                                       group.joint_conductance_m3_per_s_pa / group.count)
                                : JointOfPieces(problem, family, part, pumps);
-    for (const auto& [manifold, pieces] : one) all[manifold] += pieces * (each ? group.count : 1);
+    for (const auto& [row, pieces] : one) all[row] += pieces * (each ? group.count : 1);
   }
+  const bool lets_back = PumpsIn(problem.parts, family)[part].check_valve_cracking_pa.has_value();
+  if (const model::CheckValve* valve = lets_back ? CheckValveFor(problem) : nullptr)
+    all[{Family::kCheckValve, static_cast<int>(valve - problem.parts.check_valves.data())}] =
+        Feeds(problem);
   return all;
 }
 
@@ -140,7 +166,7 @@ JointRows JointsOf(const Problem& problem, const Design& design) {
   const bool own = HasOwnRegulators(design.parts);
   JointRows all;
   const auto add = [&](const JointRows& rows) {
-    for (const auto& [manifold, pieces] : rows) all[manifold] += pieces;
+    for (const auto& [row, pieces] : rows) all[row] += pieces;
   };
   const bool shared = problem.pump_feed == PumpFeed::kShared;
   if (!own && shared) add(JointOfLines(problem));

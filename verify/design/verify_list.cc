@@ -26,10 +26,10 @@ void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Find
     const std::string rank = "rank " + std::to_string(i + 1);
     if (!seen.insert({designs[i].configuration, IdsOf(designs[i])}).second)
       findings.push_back({"order", rank + " is listed twice"});
-    const double objective = designs[i].objective, tie = kTieTolerance * std::abs(begin);
+    const double objective = designs[i].objective, tie = TieOf(problem) * std::abs(begin);
     if (i == 0 || objective > begin + (1.0 + kSettled) * tie) {
       begin = least_behind[i];
-      if (objective > begin + (1.0 + kSettled) * kTieTolerance * std::abs(begin))
+      if (objective > begin + (1.0 + kSettled) * TieOf(problem) * std::abs(begin))
         findings.push_back({"order", rank + " comes before a better one"});
     } else if (objective <= begin + (1.0 - kSettled) * tie &&
                TieKeyOf(problem, designs[i]) < TieKeyOf(problem, designs[i - 1])) {

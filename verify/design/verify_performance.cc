@@ -1,4 +1,7 @@
 // Strokes, air, energy and margins of a listed design against a simulation of its periodic state.
+#include <set>
+#include <string>
+
 #include "verify/design/cycle/verify_cycle.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/cycle/verify_known_cycles.h"
@@ -178,6 +181,16 @@ void CheckFill(const Problem& problem, const Settings& settings, const Assembly&
     findings.push_back({"supply", "without a regulator the tank's fill is the source pressure"});
 }
 
+// Of all actuators: both chambers of a double-acting one are groups of its entry.
+int ActuationsAPeriod(const Problem& problem) {
+  std::set<std::string> pointers;
+  int actuations = 0;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    if (pointers.insert(GroupPointer(problem, g)).second)
+      actuations += problem.groups[g].count * problem.groups[g].gait.strokes_per_period;
+  return actuations;
+}
+
 }  // namespace
 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
@@ -204,11 +217,8 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   };
   if (assembly.direct()) expect("source_pressure", source_pa, cycle->node_pa, kTimeTolerance);
   const Supply supply = SupplyOf(problem, settings, assembly, *cycle);
-  int actuations = 0;  // of all actuators in a period
-  for (const ActuatorGroup& group : problem.groups)
-    actuations += group.count * group.gait.strokes_per_period;
-  expect("air_per_actuation", claimed.air_per_actuation_m3, cycle->air_m3 / actuations,
-         kTimeTolerance);
+  expect("air_per_actuation", claimed.air_per_actuation_m3,
+         cycle->air_m3 / ActuationsAPeriod(problem), kTimeTolerance);
   expect("air_total", claimed.air_total_m3,
          problem.actuations * cycle->air_m3 + supply.first_fill_m3, kTimeTolerance);
   expect("run_time_s", claimed.run_time_s, problem.actuations / problem.frequency_hz,

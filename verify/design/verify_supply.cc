@@ -134,7 +134,12 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
     const int running = a.direct() ? FeedsRunning(problem) : 1;
     supply.current_a =
         running * a.compressors * model::LargestCurrent(a.pump()->curve, ambient_pa, source_pa);
-    supply.frequency_hz = std::min(supply.frequency_hz, a.pump()->duty_max / cycle.pump_on_s);
+    // Pumps that hold on run for one share of every period, so that its length does not matter.
+    const bool any_period =
+        a.direct() && PumpsHoldOn(problem) &&
+        cycle.pump_on_s * problem.frequency_hz <= a.pump()->duty_max * (1.0 + kSumTolerance);
+    if (!any_period)
+      supply.frequency_hz = std::min(supply.frequency_hz, a.pump()->duty_max / cycle.pump_on_s);
   }
   if (a.battery) {
     supply.energy_j =

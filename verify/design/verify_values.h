@@ -53,6 +53,7 @@ using optimizer::ProofSlot;
 using optimizer::Pruned;
 using optimizer::PumpFamily;
 using optimizer::PumpFeed;
+using optimizer::PumpsHoldOn;
 using optimizer::PumpsOf;
 using optimizer::RobustAnswer;
 using optimizer::RobustOptions;

@@ -41,7 +41,7 @@ class Enumeration {
         sizer_(problem, options.stop) {
     enough_ = claims_.all().enough();
     if (!answer.designs.empty())
-      enough_ = std::max(enough_, answer.designs.back().objective * (1.0 + kTieTolerance));
+      enough_ = std::max(enough_, answer.designs.back().objective * (1.0 + TieOf(problem)));
     for (std::size_t i = 0; i < answer.designs.size(); ++i)
       listed_[{answer.designs[i].configuration, IdsOf(answer.designs[i])}] = i;
   }
@@ -87,9 +87,8 @@ class Enumeration {
         counts_.incompatible += behind;
         continue;
       }
-      const ItemAmounts& amounts = amounts_[slot][i];
-      From(slot + 1, {before.mass_kg + amounts.mass_kg, before.volume_m3 + amounts.volume_m3,
-                      before.cost_eur + amounts.cost_eur, before.objective + amounts.objective});
+      ItemAmounts sum = before;
+      From(slot + 1, sum += amounts_[slot][i]);
     }
   }
 
@@ -147,10 +146,7 @@ class Enumeration {
       counts_.beyond += 1;
       return;
     }
-    const double slack = 1.0 + kToSpare;
-    if (sum.mass_kg > problem_.mass_max_kg * slack ||
-        sum.volume_m3 * 1e3 > problem_.volume_max_l * slack ||
-        sum.cost_eur > problem_.cost_max_eur * slack) {
+    if (TooMuch(problem_, sum, kToSpare)) {
       counts_.infeasible += 1;
       return;
     }

@@ -8,12 +8,12 @@ namespace plenum::verify {
 namespace {
 
 // The least that the objective of what ties with a listed design may be.
-double BestOfRun(double objective) {
-  return objective - (1.0 + kSettled) * kTieTolerance * std::abs(objective);
+double BestOfRun(const Problem& problem, double objective) {
+  return objective - (1.0 + kSettled) * TieOf(problem) * std::abs(objective);
 }
 
-bool Ties(double one, double other) {
-  return std::min(one, other) >= BestOfRun(std::max(one, other));
+bool Tie(const Problem& problem, double one, double other) {
+  return std::min(one, other) >= BestOfRun(problem, std::max(one, other));
 }
 
 // The run of ties that the last design of a full list is in goes by mass, cost and ids.
@@ -25,16 +25,17 @@ Claim OnAll(const Problem& problem, const Answer& answer) {
   double last = -kUnlimited;
   for (std::size_t i = answer.designs.size(); i-- > 0;) {
     const double objective = answer.designs[i].objective;
-    if (std::isfinite(last) && !Ties(objective, last)) break;
+    if (std::isfinite(last) && !Tie(problem, objective, last)) break;
     last = std::max(last, objective);
   }
-  return {BestOfRun(last), last * (1.0 + kSumTolerance), TieKeyOf(problem, answer.designs.back())};
+  return {BestOfRun(problem, last), last * (1.0 + kSumTolerance),
+          TieKeyOf(problem, answer.designs.back())};
 }
 
 // On what belongs behind a listed design, by its kind or source. It is the earliest of what ties
 // with the best of these, so that may be better by a tie.
 Claim Behind(const Problem& problem, const Design& design, const Answer& answer) {
-  const double best = BestOfRun(design.objective);
+  const double best = BestOfRun(problem, design.objective);
   if (!answer.proof.complete)
     return {std::min(answer.proof.lower_bound, best) * (1.0 - kSumTolerance), -kUnlimited, {}};
   return {best, design.objective * (1.0 + kSumTolerance), TieKeyOf(problem, design)};

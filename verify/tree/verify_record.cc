@@ -104,7 +104,7 @@ class RecordCheck {
   void CheckPlan(const ProofPlan& plan) {
     if (FlowMustBeEqual(problem_, LayoutOf(plan)) && !plan.equal_flow)
       findings_.push_back({"dominance", "flows are compared where only equal ones may be"});
-    if (std::isfinite(last()) && plan.tie < kTieTolerance * last() * (1.0 - kSumTolerance))
+    if (std::isfinite(last()) && plan.tie < TieOf(problem_) * last() * (1.0 - kSumTolerance))
       findings_.push_back({"dominance", "the tie is smaller than that of the last design"});
     const std::size_t before = findings_.size();
     CheckSlots(problem_, plan, counts_, findings_);
@@ -137,7 +137,7 @@ class RecordCheck {
       const bool own = box.end.kind == BoxKind::kDesign && box.end.design == static_cast<int>(rank);
       const bool open = !answer_.proof.complete &&
                         (box.end.kind == BoxKind::kBound || box.end.kind == BoxKind::kOrder) &&
-                        box.end.bound <= design.objective * (1.0 + kTieTolerance);
+                        box.end.bound <= design.objective * (1.0 + TieOf(problem_));
       if (own || open) ++found_[rank];
     }
   }
@@ -254,6 +254,7 @@ bool FlowMustBeEqual(const Problem& problem, const Layout& layout) {
   if (layout.own_regulators && std::none_of(problem.groups.begin(), problem.groups.end(), in_parts))
     return false;
   if (!IsPumped(configuration)) return MayOverlap(problem);
+  if (IsDirect(configuration) && PumpsHoldOn(problem)) return true;
   const std::vector<model::Compressor>& pumps = PumpsOf(problem, configuration);
   return (UnitsOf(problem).size() > 1 && KeepsReservoir(configuration)) ||
          !std::all_of(pumps.begin(), pumps.end(), [&](const model::Compressor& pump) {

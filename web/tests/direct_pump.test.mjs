@@ -65,6 +65,23 @@ test('pumps of each actuator are asked for by the form, alone', async () => {
   await close();
 });
 
+test('pumps that run on while actuators hold are asked for by the form, alone', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByText('Pump without a reservoir').click();
+  await page.getByText('Pumps run on while actuators hold').click();
+  await page.getByText('These requirements can be searched.').waitFor();
+  assert.deepEqual(await violationsOf(page), []);
+  const asked = page.waitForRequest(
+    (request) => request.method() === 'POST' && request.url().endsWith('/v1/designs'),
+  );
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  const { supply } = (await asked).postDataJSON();
+  assert.deepEqual(supply.configurations, ['direct_pump']);
+  assert.equal(supply.hold_on, true);
+  await close();
+});
+
 test('a kit of pumps and vent valves can be tried and drawn', async () => {
   const id = await rank(service, {
     ...example('finger_kit'),

@@ -41,6 +41,25 @@ const openImport = async () => {
 };
 const choose = (page, file) => page.getByLabel('Choose a file…').last().setInputFiles(file);
 
+test('a price list goes in: the currency is asked, the body comes of its sides', async () => {
+  const { page, close } = await openImport();
+  const list =
+    'Brand,SKU,Stations,Weight (g),Size (mm),Price,Shop\nSMC,PL-1,4,210,70x30x50,19.5,Acme\n';
+  await choose(page, table('list.csv', list));
+  await page.getByText('in which currency is "19.5"').waitFor();
+  await page.getByLabel('Column for Price').selectOption('offer_price [USD]');
+  await page.getByRole('button', { name: 'Import the part' }).click();
+  await page.getByRole('dialog').waitFor({ state: 'detached' });
+  const part = await service.get('/v1/parts/smc-pl-1');
+  assert.equal(part.body_volume_ml, 105);
+  const { supplier, price, currency, pack } = part.offers[0];
+  assert.deepEqual(
+    { supplier, price, currency, pack },
+    { supplier: 'Acme', price: 19.5, currency: 'USD', pack: 1 },
+  );
+  await close([422]);
+});
+
 test('columns are mapped by hand, and as last time for the same headings', async () => {
   const { page, close } = await openImport();
   await choose(page, table('a.csv', german('VX-1')));

@@ -36,11 +36,14 @@ test('a recording becomes a revision of the part', async () => {
     .locator('input[type=file]')
     .first()
     .setInputFiles([file('bottle_test_rig.json'), file('bottle_test_simulated.csv')]);
+  await page.getByLabel('Time limit').fill('120');
   await page.getByRole('button', { name: 'Find what the model lacks' }).click();
+  await page.getByLabel('Piece, where you have several').fill('A');
   await page.getByRole('button', { name: `Write into ${part}` }).click({ timeout: 60_000 });
   await page.getByText(`Written into ${part}`).waitFor({ timeout: 60_000 });
   const stored = await service.get(`/v1/parts/${part}`);
   assert.equal(stored.provenance.sonic_conductance_dm3_per_s_bar.kind, 'measured');
+  assert.ok(stored.documents[0].link.endsWith(', piece A'));
   assert.ok(Math.abs(stored.sonic_conductance_dm3_per_s_bar - 0.53) < 0.006);
   await close();
 });

@@ -47,8 +47,8 @@ void JoinAnew(const optimizer::Problem& problem, Design& design) {
   if (std::erase_if(design.parts, Joins) == 0) return;
   for (const optimizer::Joint& joint : optimizer::JointsOf(problem, design.parts)) {
     Choice row;
-    row.family = optimizer::Family::kManifold;
-    row.id = problem.parts.manifolds[joint.manifold].basics.id;
+    row.family = joint.family;
+    row.id = optimizer::BasicsOf(problem.parts, joint.family, joint.part).id;
     row.quantity = joint.quantity;
     design.parts.push_back(std::move(row));
   }

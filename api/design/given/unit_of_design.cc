@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "api/design/given/given_request.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/version.h"
 #include "fmu/unit_file.h"
 #include "optimizer/problem/own_regulators.h"
@@ -42,6 +43,14 @@ Parsed<std::string> MakeUnitFile(const Json& request, const std::vector<catalog:
     return Errors{{"/requirements/supply/pumps",
                    "must be shared: a unit has one source, and pumps of their own for each group "
                    "or actuator are not among what it can hold"}};
+  if (optimizer::PumpsHoldOn(given.asked.problem))
+    return Errors{{"/requirements/supply/hold_on",
+                   "must be false: the pumps of a unit run while its valves fill, and not on while "
+                   "they hold"}};
+  if (HasVacuumRail(given.asked.problem))
+    return Errors{{"/requirements/actuators",
+                   "must be without low_pressure_kpa_gauge: the valves of a unit vent into the "
+                   "surroundings"}};
   auto driven = optimizer::Drive(optimizer::WithPartsOf(given.asked.problem, given.design),
                                  given.design, After(seconds_max));
   if (!driven)

@@ -12,6 +12,7 @@
 #include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
 #include "api/design/read/supply/regulation.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "model/physics/storage.h"
@@ -193,11 +194,16 @@ class Check {
     } else if (optimizer::Evacuated(problem_) && !StandsVacuum(*found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " does not stand a vacuum, or its row does not say enough");
+    } else if (found != catalogue_.end() && !SuitsVacuumRail(problem_, *found)) {
+      FailRow(choice, "/id", Quoted(choice.id) + WhyNotForVacuumRail(*found));
     } else if (found != catalogue_.end() && !SuitsFeed(problem_, *found)) {
-      FailRow(choice, "/id", Quoted(choice.id) + WhyNotForFeed(problem_, *found));
+      FailRow(choice, "/id", Quoted(choice.id) + WhyNotForFeed(problem_));
     } else if (found != catalogue_.end() && !HasItsPressure(problem_, *found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " needs more pressure than the wall has (supply.mains)");
+    } else if (found != catalogue_.end() && LacksCheckValve(problem_, *found)) {
+      FailRow(choice, "/id",
+              Quoted(choice.id) + " lets air back while it is off, and no check valve keeps it");
     } else if (found != catalogue_.end() && !IsAllowed(problem_, choice.family, *found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is no product that one can order, which supply.parts asks for");

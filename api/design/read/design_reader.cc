@@ -1,5 +1,6 @@
 #include "api/design/read/design_reader.h"
 
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
@@ -47,6 +48,21 @@ void ReadVacuumOf(Reader& reader, const Problem& problem, Configuration configur
                                                  Decimal(*source));
 }
 
+// Of a design with a vacuum beside its pressure: the wall's, if it is given.
+void ReadRail(Reader& reader, const Problem& problem) {
+  const auto given =
+      reader.OptionalNumber("vacuum_kpa_gauge", {DeepestKpaGauge(problem.ambient), 0});
+  if (!given) return;
+  if (!HasVacuumRail(problem))
+    reader.Fail("vacuum_kpa_gauge",
+                "is for actuators that go below ambient: none has an operating pressure or a "
+                "low_pressure_kpa_gauge below 0 kPa gauge");
+  else if (std::abs(*given - VacuumRailKpa(problem)) > kSamePressureKpa)
+    reader.Fail("vacuum_kpa_gauge", "must be the wall's vacuum of " +
+                                        Decimal(VacuumRailKpa(problem)) + ", not " +
+                                        Decimal(*given));
+}
+
 }  // namespace
 
 Configuration ReadConfiguration(Reader& design) {
@@ -80,6 +96,7 @@ optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configurat
   else if (reader.Has("source_pressure_kpa_gauge") || !optimizer::IsDirect(configuration))
     settings.source_pressure_pa = PaFromKpaGauge(
         reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
+  if (!optimizer::Evacuated(problem) && reader.Has("vacuum_kpa_gauge")) ReadRail(reader, problem);
   if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
     settings.reservoir_volume_m3 = M3FromMl(*ml);
   if (const auto kpa = reader.OptionalNumber("tank_fill_kpa_gauge", {0, kGaugeMaxKpa}))

@@ -7,6 +7,7 @@
 #include "api/design/read/selection.h"
 #include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/power.h"
+#include "api/design/read/supply/vacuum_rail.h"
 
 namespace plenum::api {
 namespace {
@@ -84,6 +85,7 @@ std::string WhyNotGuaranteed(const optimizer::Problem& problem, const GuaranteeR
                   [](const GroupUncertainty& group) { return group.expansion_ratio > 0.0; }))
     return "is for evacuated actuators whose contraction is exact: leave expansion_ratio out of "
            "/actuators/…/relative_uncertainty";
+  if (HasVacuumRail(problem)) return "is not for actuators with a low_pressure_kpa_gauge yet";
   if (problem.objective.energy_wh > 0.0)
     return "ranks by mass, volume and cost; energy is told at its upper value and not minimised";
   if (problem.configurations.contains(optimizer::Configuration::kTank) ||

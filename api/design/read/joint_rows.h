@@ -1,4 +1,4 @@
-// Manifolds and tees (optimizer/problem/joints.h) of a request and of a given design.
+// Manifolds, tees and check valves (optimizer/problem/joints.h) of a request and of a given design.
 #ifndef PLENUM_API_DESIGN_READ_JOINT_ROWS_H_
 #define PLENUM_API_DESIGN_READ_JOINT_ROWS_H_
 
@@ -15,7 +15,8 @@ void SetJoints(optimizer::Problem& problem);
 void WarnOfJoints(const optimizer::Problem& problem);
 
 // Says of each row of a design, by its number, that is a manifold and not what joins its lines or
-// pieces, of which field and why. The problem has all parts that the design may have.
+// pieces, or a check valve and not what its pumps need, or a pump that lacks one, of which field
+// and why. The problem has all parts that the design may have.
 using FailRow = std::function<void(std::size_t row, const char* field, const std::string& detail)>;
 void CheckJointRows(const optimizer::Design& design, const optimizer::Problem& problem,
                     const FailRow& fail);

@@ -14,6 +14,7 @@
 #include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
 #include "api/design/read/supply/regulation.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/design/read/supply/vacuum_reader.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
@@ -83,6 +84,7 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   ReadPower(supply, problem);
   ReadVacuum(supply, problem);
   ReadPumps(supply, problem);
+  ReadHoldOn(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (source && !optimizer::Evacuated(problem))
     problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
@@ -129,7 +131,8 @@ void CheckPressures(const optimizer::Problem& problem, Errors& errors) {
                                      "the highest source pressure allowed: "
                                      "/supply/source_pressure_kpa_gauge_max is " +
                                      Decimal(kpa(problem.source_pressure_max_pa))});
-    else if (only_mains && operating_pa > problem.mains.pressure_pa)
+    else if (only_mains && problem.mains.pressure_pa > 0.0 &&  // else that is missing
+             operating_pa > problem.mains.pressure_pa)
       errors.push_back({pointer, is + "the only source: /supply/mains/pressure_kpa_gauge is " +
                                      Decimal(kpa(problem.mains.pressure_pa))});
   }
@@ -213,6 +216,11 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
   if (optimizer::Evacuated(parsed.problem))
     request.Fail("model",
                  "is for actuators under pressure: effects of evacuated ones are not known");
+  if (HasVacuumRail(parsed.problem))
+    request.Fail(
+        "model",
+        "is for actuators that stay above ambient: effects below it are not known, and one "
+        "has a low_pressure_kpa_gauge");
   for (const Configuration tank : {Configuration::kTank, Configuration::kTankAndPump})
     if (parsed.problem.configurations.contains(tank))
       request.FailAt("supply/configurations",
@@ -305,10 +313,13 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (!HasErrorIn(errors, {"/supply", "/require", "/exclude"}))
     CheckFamilies(parts, problem, needs_fittings, errors);
   if (!errors.empty()) return errors;
-  problem.parts = AllowedModelParts(parts, problem);
   SetJoints(problem);
+  problem.parts = AllowedModelParts(parts, problem);
+  if (std::string why = WhyNoPumps(problem); !why.empty())
+    return Errors{{"/supply/pumps", std::move(why)}};
   if (std::any_of(parts.begin(), parts.end(), IsJoint)) WarnOfJoints(problem);
   WarnOfRegulation(problem);
+  WarnOfTurns(problem);
   parsed.request = request;
   parsed.remarks = recorder.Take();
   return parsed;

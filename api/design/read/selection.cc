@@ -8,11 +8,13 @@
 #include "api/design/read/supply/outside.h"
 #include "api/design/read/supply/own_pumps.h"
 #include "api/design/read/supply/power.h"
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/request_limits.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "catalog/fields/price.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/joints.h"
 
 namespace plenum::api {
 namespace {
@@ -62,7 +64,7 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::
   return IsAllowed(problem, family, part.id) &&
          (!problem.orderable_only || part.orderable.value_or(true)) &&
          (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part) &&
-         HasItsPressure(problem, part);
+         HasItsPressure(problem, part) && SuitsVacuumRail(problem, part);
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
@@ -138,9 +140,10 @@ bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec
 
 model::Parts ModelPartsFor(const optimizer::Problem& problem,
                            const std::vector<catalog::Part>& rows) {
-  if (optimizer::Evacuated(problem)) return ToVacuumParts(rows, problem.ambient);
-  model::Parts parts = ToModelParts(rows, problem.ambient);
+  model::Parts parts = optimizer::Evacuated(problem) ? ToVacuumParts(rows, problem.ambient)
+                                                     : ToModelParts(rows, problem.ambient);
   optimizer::FollowMission(problem.actuations / problem.frequency_hz, parts);
+  optimizer::FitCheckValves(problem, parts);
   return parts;
 }
 

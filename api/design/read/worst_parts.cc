@@ -177,8 +177,10 @@ model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<c
   std::vector<std::size_t> seen(optimizer::Families().size());
   for (const catalog::Part& row : rows) {
     for (const optimizer::FamilySpec& spec : optimizer::Families()) {
-      // Reservoirs as tanks: a guarantee has none (guarantee.h).
-      if (row.family != spec.name || spec.family == optimizer::Family::kTank) continue;
+      // Reservoirs as tanks, and check valves: a guarantee has none (guarantee.h).
+      if (row.family != spec.name || spec.family == optimizer::Family::kTank ||
+          spec.family == optimizer::Family::kCheckValve)
+        continue;
       if (spec.joins && !IsJoint(row)) continue;  // it is no part of the problem
       const std::size_t part = seen[static_cast<std::size_t>(spec.family)]++;
       AddSlack(row, tolerance, settled,

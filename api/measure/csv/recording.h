@@ -44,7 +44,7 @@ struct Recording {
   catalog::TableReading table;  // its questions and errors are those of the recording
   bool has_headings = true;
   double ambient_kpa_abs = 100.0;
-  std::vector<Scale> scales;             // of the columns
+  std::vector<ColumnScale> scales;       // of the columns
   std::vector<std::string> meanings;     // of the columns; empty: the field says it all
   std::vector<std::string> valve_words;  // the different ones
   std::vector<RecordedRun> runs;         // in order of appearance

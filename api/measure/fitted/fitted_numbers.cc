@@ -65,6 +65,11 @@ std::optional<DeclaredNumber> DeclaredOfRun(const Run& run, Declared number) {
 std::optional<DeclaredNumber> DeclaredIn(const Dataset& dataset, Declared number,
                                          std::optional<std::size_t> specimen) {
   std::optional<DeclaredNumber> declared;
+  if (dataset.several && specimen) {
+    Run run = dataset.runs.front();
+    run.chamber = calibration::ChamberOf(run, *specimen);
+    return DeclaredOfRun(run, number);
+  }
   for (const Run& run : dataset.runs)
     if (!declared && (!specimen || run.specimen == *specimen))
       declared = DeclaredOfRun(run, number);
@@ -92,12 +97,14 @@ Json RenderFactor(const FittedFactor& fitted, const DeclaredNumber& declared) {
 Json RenderFitted(const std::vector<FittedFactor>& factors, const Dataset& dataset) {
   Json document = Json::object();
   for (const FittedFactor& fitted : factors) {
-    const std::string name(calibration::Name(fitted.number));
+    std::string name(calibration::Name(fitted.number));
+    if (dataset.several && fitted.specimen) name += "[" + dataset.specimens[*fitted.specimen] + "]";
     const auto declared = DeclaredIn(dataset, fitted.number, fitted.specimen);
     if (!declared || document.contains(name)) continue;
     document[name] = RenderFactor(fitted, *declared);
     if (fitted.specimen)
-      document[name]["specimen"] = SpecimenName(dataset.specimens[*fitted.specimen]);
+      document[name][dataset.several ? "chamber" : "specimen"] =
+          SpecimenName(dataset.specimens[*fitted.specimen]);
   }
   return document;
 }
@@ -122,7 +129,8 @@ Json RenderWrong(const calibration::WrongNumber& wrong, const Dataset& dataset) 
       {"deviation_sigma", wrong.deviation_sigma ? Number(*wrong.deviation_sigma) : Json(nullptr)},
       {"instead_of", wrong.instead_of},
       {"words", NumberInWords(name, one, wrong.factor * one, unit)}};
-  if (wrong.specimen) document["specimen"] = SpecimenName(*wrong.specimen);
+  if (wrong.specimen)
+    document[dataset.several ? "chamber" : "specimen"] = SpecimenName(*wrong.specimen);
   return document;
 }
 

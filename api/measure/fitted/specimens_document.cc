@@ -77,10 +77,10 @@ Json SpreadOf(const Diagnosis& diagnosis, const Dataset& dataset) {
 
 void AddSpecimens(const Diagnosis& diagnosis, const Dataset& dataset, Json& answer) {
   if (dataset.specimens.empty()) return;
-  answer["specimens"] = Json::array();
+  Json& pieces = answer[dataset.several ? "chambers" : "specimens"] = Json::array();
   for (std::size_t specimen = 0; specimen < dataset.specimens.size(); ++specimen)
-    answer["specimens"].push_back(RenderSpecimen(diagnosis, dataset, specimen));
-  answer["specimen_spread"] = SpreadOf(diagnosis, dataset);
+    pieces.push_back(RenderSpecimen(diagnosis, dataset, specimen));
+  if (!dataset.several) answer["specimen_spread"] = SpreadOf(diagnosis, dataset);
 }
 
 }  // namespace plenum::api

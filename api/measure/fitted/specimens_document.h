@@ -11,7 +11,8 @@ namespace plenum::api {
 // Where a run names its specimen, adds
 //   specimens: [ { name, runs, fitted: { rest_volume, … }, words } ]
 // in the order of their first runs, and specimen_spread: the standard deviation between the fitted
-// specimens over their mean, by number, where at least two were fitted.
+// specimens over their mean, by number, where at least two were fitted. Of several chambers a list
+// of them, `chambers`, whose runs are those of their gauges.
 void AddSpecimens(const calibration::Diagnosis& diagnosis, const calibration::Dataset& dataset,
                   Json& answer);
 

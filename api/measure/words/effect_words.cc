@@ -4,10 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "api/json/units.h"
 #include "api/json/words.h"
+#include "calibration/values/placed_leaks.h"
 #include "model/flow/iso6358.h"
 
 namespace plenum::api {
@@ -48,7 +50,24 @@ double LeakFlow(const std::string& law, const Values& values, const Scale& scale
   return kg_per_s / model::kReferenceDensityKgPerM3;
 }
 
+// Of an evacuated actuator: what comes in at its operating pressure, and how much that is of what
+// was taken out.
+std::string LeakIn(const std::string& law, const Values& values, const Scale& scale) {
+  const double ambient_pa = scale.ambient.pressure_pa;
+  const double deep_pa = scale.chamber.operating_pressure_pa;
+  Scale mirrored = scale;  // the same flow from the surroundings into it
+  mirrored.ambient.pressure_pa = deep_pa;
+  mirrored.highest_pa = ambient_pa;
+  const double flow = LeakFlow(law, values, mirrored), taken = -AirOf(scale, deep_pa);
+  const double per_s = flow / taken;
+  return "it lets in " + Significant(6e4 * flow) + " L/min at " +
+         Significant((deep_pa - ambient_pa) / 1e3) + " kPa gauge, " +
+         (per_s > 1.0 / 60.0 ? PercentText(per_s) + " of a stroke each second"
+                             : PercentText(60.0 * per_s) + " of a stroke each minute");
+}
+
 std::string Leak(const std::string& law, const Values& values, const Scale& scale) {
+  if (model::Shrinks(scale.chamber)) return LeakIn(law, values, scale);
   if (!(scale.highest_pa > scale.ambient.pressure_pa)) return "it leaks";
   const double flow = LeakFlow(law, values, scale);
   std::string text = "it leaks " + Significant(6e4 * flow) + " L/min at " +
@@ -76,9 +95,11 @@ std::string Compliance(const Values& values, const Scale& scale) {
     constexpr double kTurn = 6.283185307179586;
     return x + values[0] * x * (x - 1.0) + values[1] * std::sin(kTurn * x) / kTurn;
   };
-  return "its volume does not grow evenly: " + PercentText(at(0.25)) +
-         " of the expansion at a quarter of the operating pressure, " + PercentText(at(0.5)) +
-         " at half, " + PercentText(at(0.75)) + " at three quarters";
+  const bool shrinks = model::Shrinks(scale.chamber);
+  return std::string("its volume does not ") + (shrinks ? "shrink" : "grow") +
+         " evenly: " + PercentText(at(0.25)) + " of the " +
+         (shrinks ? "contraction" : "expansion") + " at a quarter of the operating pressure, " +
+         PercentText(at(0.5)) + " at half, " + PercentText(at(0.75)) + " at three quarters";
 }
 
 std::string More(double factor, const char* more, const char* less) {
@@ -94,9 +115,10 @@ const Sentences& OfTheChamber() {
       {"dead_volume", DeadVolume},
       {"nonlinear_compliance", Compliance},
       {"creep",
-       [](const Values& v, const Scale&) {
-         return "its wall creeps: it expands by " + PercentText(v[0]) +
-                " more than at once, with a time constant of " + Seconds(v[1]);
+       [](const Values& v, const Scale& scale) {
+         return std::string("its wall creeps: it ") +
+                (model::Shrinks(scale.chamber) ? "shrinks" : "expands") + " by " +
+                PercentText(v[0]) + " more than at once, with a time constant of " + Seconds(v[1]);
        }},
       {"inertia",
        [](const Values& v, const Scale&) {
@@ -178,19 +200,26 @@ const Sentences& OfTheSensor() {
 
 }  // namespace
 
-Scale ScaleOf(const calibration::Dataset& dataset) {
+Scale ScaleOf(const calibration::Dataset& dataset, const model::Effect& effect) {
   Scale scale;
   if (dataset.runs.empty()) return scale;
-  scale.ambient = dataset.runs.front().ambient;
-  scale.chamber = dataset.runs.front().chamber;
-  for (const calibration::Run& run : dataset.runs)
-    for (const double pa : run.pressure_pa) scale.highest_pa = std::max(scale.highest_pa, pa);
+  const auto& runs = dataset.runs;
+  scale.ambient = runs.front().ambient;
+  scale.chamber = runs.front().chamber;
+  const std::optional<std::size_t> chamber = calibration::ChamberOfLeak(*effect.spec);
+  if (chamber) scale.chamber = calibration::ChamberOf(runs.front(), *chamber);
+  const bool gauged = std::any_of(runs.begin(), runs.end(), [&](const calibration::Run& run) {
+    return chamber && run.specimen == *chamber;
+  });
+  for (const calibration::Run& run : runs)
+    if (!gauged || run.specimen == *chamber)
+      for (const double pa : run.pressure_pa) scale.highest_pa = std::max(scale.highest_pa, pa);
   return scale;
 }
 
 std::string EffectInWords(const model::Effect& effect, const Scale& scale) {
   if (effect.parameters.size() < effect.spec->parameters.size()) return "";
-  const std::string id(effect.spec->id);
+  const std::string id(calibration::WithoutChamber(*effect.spec).id);
   if (id == "leak") return Leak(std::string(effect.spec->law), effect.parameters, scale);
   for (const Sentences* sentences : {&OfTheChamber(), &OfTheLine(), &OfTheSensor()})
     if (const auto found = sentences->find(id); found != sentences->end())
@@ -202,8 +231,13 @@ std::string NumberInWords(const std::string& name, double declared, double fitte
                           const std::string& unit) {
   std::string text = name;
   std::replace(text.begin(), text.end(), '_', ' ');
-  static const std::map<std::string, std::string> kUnits{
-      {"kpa_gauge", " kPa gauge"}, {"ml", " mL"}, {"mm", " mm"}, {"dm3_per_s_bar", " dm³/(s·bar)"}};
+  static const std::map<std::string, std::string> kUnits{{"kpa_gauge", " kPa gauge"},
+                                                         {"kpa_abs", " kPa absolute"},
+                                                         {"kpa", " kPa"},
+                                                         {"K", " K"},
+                                                         {"ml", " mL"},
+                                                         {"dm3_per_s_bar", " dm³/(s·bar)"},
+                                                         {"mm", " mm"}};
   const auto found = kUnits.find(unit);
   const std::string in = found == kUnits.end() ? "" : found->second;
   text += " is " + Significant(fitted) + in;

@@ -16,7 +16,8 @@ struct Scale {
   model::Chamber chamber;
   double highest_pa = 0.0;
 };
-Scale ScaleOf(const calibration::Dataset& dataset);
+// Of an effect of one of several chambers that chamber's.
+Scale ScaleOf(const calibration::Dataset& dataset, const model::Effect& effect);
 
 // "it leaks 0.6 L/min at 700 kPa gauge, 5 % of a fill each minute"; of a learned term nothing.
 std::string EffectInWords(const model::Effect& effect, const Scale& scale);

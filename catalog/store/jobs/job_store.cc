@@ -164,14 +164,12 @@ void SetResult(SqlDatabase& db, const std::string& id, const std::string& result
       result, id);
 }
 
-void UpdateEnded(SqlDatabase& db, const JobRecord& record) {
+void UpdateEnded(SqlDatabase& db, const JobRecord& record, const std::string& ended_at) {
   Run(db,
-      std::string("UPDATE job SET status = ?, progress = ?, failure = ?, "
-                  "bytes = bytes + ?, ended = (SELECT coalesce(max(ended), 0) + 1 FROM job), "
-                  "ended_at = ") +
-          db.words().now + " WHERE id = ?",
+      "UPDATE job SET status = ?, progress = ?, failure = ?, bytes = bytes + ?, "
+      "ended = (SELECT coalesce(max(ended), 0) + 1 FROM job), ended_at = ? WHERE id = ?",
       std::string(Name(record.status)), record.progress, record.failure,
-      static_cast<std::int64_t>(record.result.size()), record.id);
+      static_cast<std::int64_t>(record.result.size()), ended_at, record.id);
   SetResult(db, record.id, record.result);
 }
 
@@ -344,10 +342,10 @@ std::string JobStore::End(std::span<const JobRecord> records) {
   std::string ended_at;
   impl_->Do([&](SqlDatabase& db) {
     SqlTransaction transaction(db, Purpose::kWrite);
-    for (const JobRecord& record : records) UpdateEnded(db, record);
     if (records.empty()) return;
-    const auto when = Query(db, "SELECT ended_at FROM job WHERE id = ?", records.back().id);
-    if (when->Step()) ended_at = when->Text(0);
+    const auto now = Query(db, std::string("SELECT ") + db.words().now);
+    if (now->Step()) ended_at = now->Text(0);
+    for (const JobRecord& record : records) UpdateEnded(db, record, ended_at);
     impl_->DropOld(records.back().order.kind);
     transaction.Commit();
   });

@@ -24,7 +24,12 @@ std::map<std::string, std::string> Parse(const std::string& address) {
 
 bool KnowsServers() { return true; }
 
-bool IsUnderstood(const std::string& address) { return !Parse(address).empty(); }
+bool IsUnderstood(const std::string& address) {
+  const auto values = Parse(address);
+  const auto port = values.find("port");
+  return !values.empty() && (port == values.end() ||
+                             port->second.find_first_not_of("0123456789,") == port->second.npos);
+}
 
 std::string Shown(const std::filesystem::path& place) {
   if (!IsServer(place)) return place.string();

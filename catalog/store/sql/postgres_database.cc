@@ -35,7 +35,9 @@ std::string FirstLine(std::string_view text) {
 StoreFault FaultOf(std::string_view state) {
   for (const char* busy : {"55P03", "40001", "40P01", "57014", "53300"})
     if (state == busy) return StoreFault::kBusy;
-  for (const char* storage : {"08", "53", "58", "57P", "25006", "25P03", "28", "42501"})
+  for (const char* away : {"08", "57P", "25P03", "28"})
+    if (state.starts_with(away)) return StoreFault::kAway;
+  for (const char* storage : {"53", "58", "25006", "42501"})
     if (state.starts_with(storage)) return StoreFault::kStorage;
   return StoreFault::kOther;
 }
@@ -228,7 +230,7 @@ void PostgresDatabase::Open() {
         session_.get(), [](void*, const char*) {}, nullptr);
     return;
   }
-  throw SqlError(FirstLine(PQerrorMessage(session_.get())), StoreFault::kStorage, true);
+  throw SqlError(FirstLine(PQerrorMessage(session_.get())), StoreFault::kAway, true);
 }
 
 void PostgresDatabase::Finish() {
@@ -241,7 +243,7 @@ void PostgresDatabase::Send(PostgresStatement& statement, const std::string& sql
   const int sent = PQsendQueryParams(session_.get(), sql.c_str(), static_cast<int>(values.size()),
                                      nullptr, values.data(), nullptr, nullptr, 0);
   if (sent == 0 || PQsetSingleRowMode(session_.get()) == 0)
-    throw SqlError("the connection to the server was lost", StoreFault::kStorage, true);
+    throw SqlError("the connection to the server was lost", StoreFault::kAway, true);
   reading_ = &statement;
 }
 
@@ -253,7 +255,7 @@ void PostgresDatabase::Check(const Result& result) const {
   const char* code = PQresultErrorField(result.get(), PG_DIAG_SQLSTATE);
   const char* message = PQresultErrorField(result.get(), PG_DIAG_MESSAGE_PRIMARY);
   if (code == nullptr || message == nullptr || PQstatus(session_.get()) == CONNECTION_BAD)
-    throw SqlError("the connection to the server was lost", StoreFault::kStorage, true);
+    throw SqlError("the connection to the server was lost", StoreFault::kAway, true);
   throw SqlError(FirstLine(message), FaultOf(code));
 }
 

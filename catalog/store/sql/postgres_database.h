@@ -13,7 +13,7 @@
 
 namespace plenum::catalog {
 
-// Throws SqlError (kStorage) where the server cannot be reached, in words without a password.
+// Throws SqlError (kAway) where the server cannot be reached, in words without a password.
 std::unique_ptr<SqlDatabase> ConnectToServer(const std::string& address);
 
 }  // namespace plenum::catalog

@@ -22,7 +22,7 @@ class SqlError : public std::runtime_error {
   bool lost() const { return lost_; }
   bool uncertain() const { return uncertain_; }
   static SqlError Uncertain(const std::string& what) {
-    SqlError error(what, StoreFault::kStorage, true);
+    SqlError error(what, StoreFault::kAway, true);
     error.uncertain_ = true;
     return error;
   }

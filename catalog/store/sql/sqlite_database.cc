@@ -1,5 +1,7 @@
 #include "catalog/store/sql/sqlite_database.h"
 
+#include <sqlite3.h>
+
 #include <utility>
 
 #include "catalog/store/sql/sqlite_file.h"
@@ -78,6 +80,7 @@ class SqliteDatabase : public SqlDatabase {
   const SqlWords& words() const override { return kWords; }
 
   void Begin(Purpose purpose) override {
+    RollBack();  // what could not be taken back when there was no memory or the disk failed
     Execute(purpose == Purpose::kRead ? "BEGIN DEFERRED" : "BEGIN IMMEDIATE");
   }
   void Commit() override {
@@ -88,7 +91,11 @@ class SqliteDatabase : public SqlDatabase {
       throw;
     }
   }
-  void RollBack() noexcept override { db_->tryExec("ROLLBACK"); }
+  void RollBack() noexcept override {
+    constexpr int kTries = 20;
+    for (int i = 0; i < kTries && sqlite3_get_autocommit(db_->getHandle()) == 0; ++i)
+      db_->tryExec("ROLLBACK");
+  }
 
   void WaitForLocks(std::chrono::milliseconds patience) override {
     catalog::WaitForLocks(*db_, patience);

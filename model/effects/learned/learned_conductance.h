@@ -55,7 +55,7 @@ class LearnedConductance final : public EffectUnit<T> {
  private:
   // 0 for a chamber that does not expand.
   T Share(const Moment<T>& m) const {
-    if (!(span_ > 0.0)) return T(0.0);
+    if (IsZero(span_)) return T(0.0);
     return ((kFeature == ConductanceFeature::kPressure ? m.pressure_pa : m.volume_m3) - zero_) /
            span_;
   }

@@ -17,6 +17,13 @@ void Widen(const Pumping&, CompressorCorner& a, const CompressorCorner& b) {
     ToLeast(a.pump.seconds_per_m3[i], b.pump.seconds_per_m3[i]);
     ToLeast(a.pump.current_a[i], b.pump.current_a[i]);
   }
+  for (std::size_t g = 0; g < a.pump.holding.size(); ++g) {
+    HoldingPump& holding = a.pump.holding[g];
+    const HoldingPump& other = b.pump.holding[g];
+    ToLeast(holding.power_w, other.power_w);
+    for (int i = 0; i < kCoarseCells; ++i)
+      ToLeast(holding.beyond_j_per_m3[i], other.beyond_j_per_m3[i]);
+  }
 }
 constexpr std::size_t KeyCount(const Pumping&) { return 2; }
 void AddKeys(const Pumping&, const CompressorCorner& c, const auto& add) {

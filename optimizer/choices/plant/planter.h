@@ -129,10 +129,11 @@ class Planter {
 
   // A faster line is only sure to be no worse for the other groups where no two strokes take air at
   // the same time, as they never do of pumps without a reservoir, and for a pump only where more
-  // pressure costs more energy per air.
+  // pressure costs more energy per air, and it does not hold on.
   bool LinesMeet() const {
     if (!IsPumped(plan_->configuration)) return SquadsOverlap();
     if (KeepsReservoir(plan_->configuration) && MeetingOf(problem_) != Meeting::kAlone) return true;
+    if (PumpsHoldOn(problem_)) return true;  // what is full sooner is held longer
     const std::vector<model::Compressor>& pumps = PumpsOf(problem_, plan_->configuration);
     return !std::all_of(pumps.begin(), pumps.end(), [&](const model::Compressor& c) {
       return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,

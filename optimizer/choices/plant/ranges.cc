@@ -4,6 +4,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/amount.h"
 #include "optimizer/problem/pump_feed.h"
 
 namespace plenum::optimizer {
@@ -75,10 +76,11 @@ double LargestTie(const Problem& problem, const Layout& layout) {
   add(parts.tanks, most.reservoirs);
   add(parts.manifolds,
       LineCount(problem) * (1 + most.compressors) + 32);  // of pumps, bottles and reservoirs
+  add(parts.check_valves, FeedsOf(problem));
   sum += problem.objective.mass_kg * MostGasKg(problem);
   sum += ObjectiveOf(problem.objective, CustomReservoir(problem, model::kMadeReservoirLargestM3,
                                                         CustomRatingPa(problem)));
-  return kTie * (sum + EnergyWeight(problem) * MostEnergy(problem, layout.configuration));
+  return TieOf(problem) * (sum + EnergyWeight(problem) * MostEnergy(problem, layout.configuration));
 }
 
 double HighestUseful(const Problem& problem, Configuration configuration, double pump_pa) {

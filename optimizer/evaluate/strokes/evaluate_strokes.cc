@@ -40,7 +40,7 @@ double RegulatedStroke(const Problem& problem, const Candidate& candidate, doubl
       model::MakeSeries(elements, FlowFactor(problem, GasOf(candidate.configuration)));
   const double flow_max = FlowMax(problem, candidate, g) / squad.count;
   const auto fill_time = [&](double to_pa) {
-    return model::FillTime(fill, line.chamber, source_pa, problem.ambient.pressure_pa, to_pa,
+    return model::FillTime(fill, line.chamber, source_pa, model::RestPa(line.chamber), to_pa,
                            problem.ambient.temperature_k, flow_max);
   };
   const double operating_pa = group.chamber.operating_pressure_pa;
@@ -64,11 +64,6 @@ double RegulatedStroke(const Problem& problem, const Candidate& candidate, doubl
 
 double RiseLimit(const Problem& problem, int g) {
   return std::min(problem.groups[g].rise_time_max_s, InflateWindow(problem, g));
-}
-
-bool AllReached(const Strokes& strokes) {
-  return std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
-                     [](double s) { return std::isfinite(s); });
 }
 
 // What is simulated together, in its periodic state; false where the simulator did not get there.
@@ -214,9 +209,10 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
 // Strokes that may draw at once, each integrated with the others.
 Strokes StrokesTogether(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
-  if (!KeepsReservoir(candidate.configuration))
-    if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))
-      if (!strokes->failed || candidate.stopped()) return *std::move(strokes);
+  const bool pumped = KeepsReservoir(candidate.configuration);
+  std::optional<Strokes> strokes = pumped ? StrokesAtOnce(problem, candidate, point)
+                                          : FillTogether(problem, candidate, point.source_pa);
+  if (strokes && (!strokes->failed || candidate.stopped())) return *std::move(strokes);
   return SimulateStrokes(problem, candidate, point);
 }
 
@@ -250,8 +246,10 @@ Strokes DirectStrokes(const Problem& problem, const Candidate& candidate) {
     if (!stroke.reached) return NeverFilled(problem);
     Keep(strokes.rise_s[g], stroke.rise_s);
     Keep(strokes.inflate_s[g], stroke.inflate_s);
-    on_s[fed.feed] += strokes_per_period * stroke.inflate_s;
-    strokes.pump_energy_j += strokes_per_period * fed.feeds * stroke.pump_energy_j;
+    const double filling_s = strokes_per_period * stroke.inflate_s;
+    on_s[fed.feed] += fed.Seconds(PumpsHoldOn(problem), filling_s);
+    strokes.pump_energy_j += fed.feeds * (strokes_per_period * stroke.pump_energy_j +
+                                          HoldingEnergy(problem, candidate, fed, filling_s));
     strokes.pump_air_m3 += strokes_per_period * fed.squad.count / problem.groups[g].count *
                            LeastAirPerStroke(problem, g, *candidate.lines[g]);
     strokes.works = strokes.works && stroke.inflate_s <= fed.turn_s;

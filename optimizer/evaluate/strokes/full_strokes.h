@@ -4,7 +4,8 @@
 // another: a fuller chamber draws less from the reservoir, and a fuller reservoir fills chambers
 // sooner. So of two courses of the same rig the one that begins higher stays higher, and strokes
 // that begin with a reservoir at its stop pressure are the fastest there are from empty chambers.
-// One simulation up to the limits on rise times, where the periodic state takes several periods.
+// One integration, or where that does not serve (turn_strokes.h) one simulation up to the limits on
+// rise times, where the periodic state takes several periods.
 #ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_FULL_STROKES_H_
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_FULL_STROKES_H_
 

@@ -48,12 +48,11 @@ class SharedFilling {
         flow_max_(FlowMax(problem, candidate)),
         content_per_volume_(model::kReferencePressurePa * problem.ambient.temperature_k /
                             model::kReferenceTemperatureK),
-        from_pa_(problem.ambient.pressure_pa),
         problem_(problem),
         stepper_(SquadsOf(problem).size() + 1) {
     const std::vector<Squad> squads = SquadsOf(problem);
     commands_ = CommandsOf(problem, squads);
-    state_.assign(squads.size() + 1, from_pa_);
+    state_.assign(squads.size() + 1, problem.ambient.pressure_pa);
     const double factor = FlowFactor(problem, GasOf(candidate.configuration));
     const model::FlowElement share[] = {problem.parts.regulators[candidate.regulator.index].flow};
     regulator_ = model::FlowTable(model::MakeSeries(share, factor));
@@ -140,7 +139,7 @@ class SharedFilling {
     group.valve = Valve::kOpen;
     group.begin_s = now_s_;
     group.rise_s = group.inflate_s = model::kNever;
-    state_[g] = from_pa_;
+    state_[g] = model::RestPa(*group.chamber);
   }
 
   Filled Shut(std::size_t g) {
@@ -359,7 +358,7 @@ class SharedFilling {
           stepper_.start_time() + ShareAt(g, pressure_pa) * stepper_.step() - groups_[g].begin_s;
   }
 
-  double source_pa_, flow_max_, content_per_volume_, from_pa_;
+  double source_pa_, flow_max_, content_per_volume_;
   const Problem& problem_;
   std::vector<Command> commands_;
   double now_s_ = 0.0;

@@ -99,16 +99,16 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
   const std::vector<Squad> squads = SquadsOf(problem, together);
   for (const auto& [g, count, phase] : squads) {
     const Line& line = *candidate.lines[g];
-    model::GroupRig group;
+    model::GroupRig& group = rig.groups.emplace_back();
     group.name = problem.groups[g].name;
     group.count = count / together.feeds;
     group.chamber = line.chamber;
     group.fill = line.fill;
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
-    group.initial_pressure_pa = problem.ambient.pressure_pa;
+    group.close_at_low = line.chamber.low_pressure_pa > 0.0;
+    group.initial_pressure_pa = model::RestPa(line.chamber);
     group.effects = ActingEffects(problem.groups[g], candidate.configuration);
-    rig.groups.push_back(std::move(group));
   }
   for (const auto& [at, squad] : BeginsOf(problem, squads)) {
     const double inflate_s = at * period_s;
@@ -143,7 +143,7 @@ model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
     const double from_pa = line.holds ? line.chamber.operating_pressure_pa : PressureOf(point, g);
     const double empty_s =
         model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, from_pa,
-                         problem.ambient.pressure_pa, problem.ambient.temperature_k);
+                         model::RestPa(line.chamber), problem.ambient.temperature_k);
     const double wider = std::max(1.0, empty_s / (kWithin * DeflateWindow(problem, g)));
     model::GroupRig& group = rig.groups[s];
     for (model::FlowElement& element : group.exhaust)
@@ -175,6 +175,11 @@ Strokes ToBeKept(const Problem& problem) {
   for (const ActuatorGroup& group : problem.groups)
     strokes.filled_pa.push_back(group.chamber.operating_pressure_pa);
   return strokes;
+}
+
+bool AllReached(const Strokes& strokes) {
+  return std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
+                     [](double s) { return std::isfinite(s); });
 }
 
 model::SimulateOptions StrokeOptions(const Problem& problem) {

@@ -33,6 +33,8 @@ using Strokes = StrokesOf<double>;
 // group's squads the slowest strokes and the highest pressure are kept.
 Strokes ToBeKept(const Problem& problem);
 inline void Keep(double& most, double value) { most = std::max(most, value); }
+// Whether all groups come to their operating pressures.
+bool AllReached(const Strokes& strokes);
 
 model::Gas GasOf(Configuration configuration);
 

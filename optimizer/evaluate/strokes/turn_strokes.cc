@@ -168,6 +168,51 @@ model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candid
   return input;
 }
 
+std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
+                                            const OperatingPoint& point) {
+  const bool curves = std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                                  [](const Line* line) { return line->curve != nullptr; });
+  if (!IsBurst(problem) || !curves) return std::nullopt;
+  std::vector<StrokeOfMany> many;
+  many.reserve(problem.groups.size());
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    many.push_back(
+        {MakeStrokeInput(problem, candidate, point, g, FilledAtOnce(problem, g), point.source_pa),
+         InflateWindow(problem, g)});
+  ReservoirStrokes found = FillFromReservoir(
+      many, candidate.bench != nullptr ? candidate.bench->stop : std::function<bool()>());
+  if (!found.done) return std::nullopt;
+  return found;
+}
+
+std::optional<Strokes> StrokesAtOnce(const Problem& problem, const Candidate& candidate,
+                                     const OperatingPoint& point) {
+  std::optional<ReservoirStrokes> found = FirstAtOnce(problem, candidate, point);
+  if (!found) return std::nullopt;
+  Strokes strokes = ToBeKept(problem);
+  strokes.rise_s = std::move(found->rise_s);
+  strokes.inflate_s = std::move(found->inflate_s);
+  strokes.works = AllReached(strokes);
+  if (!strokes.works) return strokes;
+  const model::ReservoirStrokeInput in =
+      MakeStrokeInput(problem, candidate, point, 0, FilledAtOnce(problem, 0), point.source_pa);
+  const double refill_s = model::PumpUpTime(*in.compressor, in.compressors, in.volume_rising_m3,
+                                            found->reservoir_end_pa, in.stop_pa, in.temperature_k);
+  const double bursts = BurstsPerPeriod(problem);
+  if (!((found->end_s + refill_s) * bursts * problem.frequency_hz <= 1.0)) return std::nullopt;
+  strokes.filled_pa = std::move(found->chamber_end_pa);
+  model::ReservoirStroke all;
+  all.reservoir_end_pa = found->reservoir_end_pa;
+  all.pump_on_s = found->pump_on_s;
+  all.pump_energy_j = found->pump_energy_j;
+  all.pump_air_m3 = found->pump_air_m3;
+  const Pumped pumped = PumpedFor(in, all, in.stop_pa, refill_s);
+  strokes.pump_on_s = bursts * pumped.on_s;
+  strokes.pump_energy_j = bursts * pumped.energy_j;
+  strokes.pump_air_m3 = bursts * pumped.air_m3;
+  return strokes;
+}
+
 std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& candidate,
                                       const OperatingPoint& point) {
   return Turns(problem, candidate, point).Run();

@@ -4,12 +4,15 @@
 // With F the reservoir's pressure after a period that began with p, F rises with p and by less than
 // it does, so that p = F(p) has one solution; found from the stop pressure down. A stroke that is
 // too slow there is too slow in the periodic state, where the reservoir holds no more.
+//
+// And strokes of all groups at once, in bursts, each from a full reservoir.
 #ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
 
 #include <optional>
 
 #include "model/strokes/reservoir_stroke.h"
+#include "optimizer/evaluate/strokes/reservoir_filling.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
 
 namespace plenum::optimizer {
@@ -18,6 +21,16 @@ namespace plenum::optimizer {
 // never reach their pressures, or not within their window, `works` may be false.
 std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& candidate,
                                       const OperatingPoint& point);
+
+// The strokes of a burst of several groups out of a full reservoir; none where it is no burst, for
+// lines without a curve, after too many steps, or told to stop (reservoir_filling.h).
+std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
+                                            const OperatingPoint& point);
+
+// The periodic state of such bursts; none, too, where the reservoir is not full again before the
+// next one.
+std::optional<Strokes> StrokesAtOnce(const Problem& problem, const Candidate& candidate,
+                                     const OperatingPoint& point);
 
 // What pumps do for one stroke of a squad and to bring the reservoir to `end_pa` after it, in
 // `refill_s`, and the pressure that the stroke ends at.

@@ -162,9 +162,15 @@ class Asking {
   }
 
   bool Agrees(const std::string& text) {
-    interview_.say(text + " [no]: ");
-    const std::string line = NextLine();
-    return line == "y" || line == "yes";
+    for (;;) {
+      interview_.say(text + " [no]: ");
+      const std::string line = NextLine();
+      if (line == "y" || line == "yes") return true;
+      if (line.empty() || line == "n" || line == "no") return false;
+      const std::string wanted = fmt::format("{}: yes or no is asked here", line);
+      if (!interview_.person) throw BadInput(fmt::format("answer to \"{}\": {}", text, wanted));
+      interview_.say("  " + wanted + "\n");
+    }
   }
 
   void AddGroup() {

@@ -46,6 +46,10 @@ std::string SettingsText(const Json& design) {
                           Short(groups[g]));
     text += " kPa gauge";
   }
+  // Beside a pressure; of evacuated actuators it is the source.
+  if (const Json vacuum = settings.value("vacuum_kpa_gauge", Json());
+      vacuum.is_number() && vacuum != settings.at("source_pressure_kpa_gauge"))
+    text += fmt::format(", vacuum {} kPa gauge", Short(vacuum));
   text += ", valve duty " + Percent(settings.at("valve_duty"));
   if (settings.at("compressor_duty").is_number()) {
     text += ", compressor duty " + Percent(settings.at("compressor_duty"));
@@ -84,14 +88,16 @@ std::string TotalsText(const Json& design) {
 }
 
 std::string MarginsTable(const Json& design) {
-  const Json* binding = Binding(design);
+  const Json* tightest = Tightest(design);
   Table table(
       {{"requirement", Align::kLeft}, {"required"}, {"achieved"}, {"margin"}, {"", Align::kLeft}},
       2);
   for (const auto& margin : design.at("margins")) {
     table.Add({margin.at("requirement").get<std::string>(), Short(margin.at("required")),
                Short(margin.at("achieved")), Percent(margin.at("relative_margin")),
-               &margin == binding ? "← binding" : ""});
+               &margin != tightest    ? ""
+               : margin.at("binding") ? "← binding"
+                                      : "← tightest"});
   }
   return table.Text();
 }
@@ -197,6 +203,7 @@ std::string_view WhyLeftOut(std::string_view reason) {
       {"require", "beside those required"},
       {"orderable", "that cannot be ordered"},
       {"vacuum", "not rated for vacuum"},
+      {"holding", "that cannot close both ways"},
       {"prices", "without a price"}};
   for (const auto& [name, words] : kWords)
     if (name == reason) return words;

@@ -58,6 +58,8 @@ std::string EstimatesTable(const Json& answer) {
   bool any = false;
   for (const Json& effect : answer.at("effects")) {
     std::string of = effect.at("id");
+    if (const Json chamber = effect.value("chamber", Json()); chamber.is_string())
+      of += "[" + chamber.get<std::string>() + "]";
     for (const auto& [name, value] : effect.at("parameters").items()) {
       if (!value.is_object()) continue;
       AddEstimate(table, std::exchange(of, ""), name, value);
@@ -289,8 +291,9 @@ std::vector<std::vector<std::string>> SpecimenRows(const Json& answer) {
 NameAndUnit WrongNumberSpoken(const Json& number) {
   NameAndUnit spoken =
       Spoken(WithUnit(number.at("name").get<std::string>(), number.at("unit").get<std::string>()));
-  if (const Json specimen = number.value("specimen", Json()); specimen.is_string())
-    spoken.name += " of " + specimen.get<std::string>();
+  for (const char* piece : {"specimen", "chamber"})
+    if (const Json name = number.value(piece, Json()); name.is_string())
+      spoken.name += " of " + name.get<std::string>();
   return spoken;
 }
 

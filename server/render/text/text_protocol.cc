@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "api/protocol/protocol_document.h"
 #include "server/render/text/text_diagnosis.h"
 #include "server/render/text/text_table.h"
 
@@ -13,8 +14,11 @@ namespace {
 using api::Json;
 using Align = Table::Align;
 
+// As large as the number itself is no uncertainty of it.
 std::string TwoDigitPercent(const Json& share) {
-  return share.is_number() ? fmt::format("{:.2g} %", 100.0 * share.get<double>()) : "–";
+  if (!share.is_number()) return "–";
+  if (share.get<double>() >= api::kNothingTold) return "not told";
+  return fmt::format("{:.2g} %", 100.0 * share.get<double>());
 }
 
 std::string At(const Json& row) {
@@ -30,9 +34,9 @@ std::string EquipmentText(const Json& test) {
   if (!equipment.at("source_pressure_kpa_gauge").is_null())
     text +=
         fmt::format(", source at {} kPa gauge", Short(equipment.at("source_pressure_kpa_gauge")));
-  return text + fmt::format(", {} readings a second for {} s, {} times\n",
+  return text + fmt::format(", {} readings a second for {} s, {} times; one check with {} L\n",
                             Short(equipment.at("sampling_hz")), Short(equipment.at("duration_s")),
-                            equipment.at("repeats").dump());
+                            equipment.at("repeats").dump(), Short(equipment.at("check_bottle_l")));
 }
 
 std::string PrecisionTable(const Json& rows) {
@@ -66,22 +70,53 @@ std::string TestText(const Json& test) {
   return text + "\n";
 }
 
+// What is known of one number after it was written.
+std::string KeptText(const Json& number) {
+  const std::string field = number.at("field");
+  std::string text;
+  if (number.at("written") == true && number.at("combined") == true)
+    text += fmt::format("  {} combines with the measurement before: {}, {}\n", field,
+                        Short(number.at("value")), TwoDigitPercent(number.at("uncertainty")));
+  if (number.at("written") == true && number.at("spread").is_number())
+    text += fmt::format(
+        "  {} of {} pieces: {}, spread between them {}, the mean known to {}, a piece to {}\n",
+        field, number.at("pieces").dump(), Short(number.at("value")),
+        TwoDigitPercent(number.at("spread")), TwoDigitPercent(number.at("standard_error")),
+        TwoDigitPercent(number.at("uncertainty")));
+  if (number.at("warning").is_string())
+    text += fmt::format("  {}: {}\n", field, number.at("warning").get<std::string>());
+  return text;
+}
+
 std::string SavedText(const Json& answer) {
   const Json saved = answer.value("saved_part", Json());
   if (!saved.is_object()) return "";
   std::string text;
   const std::string part = saved.at("part");
-  if (saved.at("revision").is_object())
-    text = fmt::format("Written into {}, revision {} of the catalogue.\n", part,
+  if (saved.at("revision").is_object()) {
+    const Json& piece = saved.at("specimen");
+    text = fmt::format("Written into {}{}, revision {} of the catalogue.\n", part,
+                       piece.is_string() ? " as piece \"" + piece.get<std::string>() + "\"" : "",
                        saved.at("revision").at("number").dump());
+    for (const Json& number : saved.at("numbers")) text += KeptText(number);
+  }
   for (const Json& reason : saved.at("refused"))
     text += fmt::format("Not written into {}: {}.\n", part, reason.get<std::string>());
-  for (const Json& number : saved.at("numbers"))
-    if (number.at("combined") == true)
-      text += fmt::format("  {} combines with the measurement before: {}, {}\n",
-                          number.at("field").get<std::string>(), Short(number.at("value")),
-                          TwoDigitPercent(number.at("uncertainty")));
   return text + "\n";
+}
+
+// What other bottles say of the same numbers.
+std::string BottlesText(const Json& answer) {
+  std::string text;
+  for (const Json& bottle : answer.value("bottles", Json::array())) {
+    int agree = 0;
+    for (const Json& number : bottle.at("numbers")) agree += number.at("agrees") == true ? 1 : 0;
+    text += fmt::format("  bottle {} of {} ml: {} of {} numbers agree\n",
+                        bottle.at("specimen").is_string() ? bottle.at("specimen").get<std::string>()
+                                                          : std::string("without a name"),
+                        Short(bottle.at("rest_volume_ml")), agree, bottle.at("numbers").size());
+  }
+  return text;
 }
 
 }  // namespace
@@ -95,6 +130,8 @@ std::string ProtocolText(const Json& protocol) {
   for (const Json& test : protocol.at("tests")) text += TestText(test);
   return text + "Uncertainties are relative, one standard deviation of all repeats together.\n";
 }
+
+std::string SavedPartText(const Json& answer) { return SavedText(answer); }
 
 std::string MeasuredText(const Json& answer) {
   const Json measured = answer.value("measured", Json::array());
@@ -118,7 +155,7 @@ std::string MeasuredText(const Json& answer) {
                TwoDigitPercent(row.at("uncertainty")), spoken,
                row.at("refused").is_string() ? row.at("refused").get<std::string>() : ""});
   }
-  std::string text = table.Text();
+  std::string text = table.Text() + BottlesText(answer);
   for (const Json& reason : answer.value("measured_refused", Json::array()))
     text += "  not for the catalogue: " + reason.get<std::string>() + "\n";
   return text + "\n" + SavedText(answer);

@@ -10,6 +10,9 @@ namespace plenum::server {
 
 std::string ProtocolText(const api::Json& protocol);
 
+// What was written into a part, or why not: "saved_part" of an answer.
+std::string SavedPartText(const api::Json& answer);
+
 // Of a diagnosis: what was measured, and what was written into the catalogue; "" without either.
 std::string MeasuredText(const api::Json& answer);
 

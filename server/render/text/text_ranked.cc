@@ -51,12 +51,12 @@ std::string TankOf(const Json& design) {
 }
 
 // "rise 4.8 %": the last word of the requirement's pointer that says what it is.
-std::string BindingText(const Json& design) {
-  const Json* binding = Binding(design);
-  if (!binding) return "–";
-  std::string name = binding->at("requirement").get<std::string>();
+std::string TightestText(const Json& design) {
+  const Json* tightest = Tightest(design);
+  if (!tightest) return "–";
+  std::string name = tightest->at("requirement").get<std::string>();
   name = name.substr(name.rfind('/') + 1);
-  return name.substr(0, name.find('_')) + " " + Percent(binding->at("relative_margin"));
+  return name.substr(0, name.find('_')) + " " + Percent(tightest->at("relative_margin"));
 }
 
 std::string Estimated(const Json& design) {
@@ -138,7 +138,7 @@ std::string PowerOf(const Json& design) {
   return power.is_object() ? power.at("kind").get<std::string>() : NamesOf(design, {"battery"});
 }
 
-const Json* Binding(const Json& design) {
+const Json* Tightest(const Json& design) {
   const auto& margins = design.at("margins");
   const auto least = std::min_element(margins.begin(), margins.end(), [](auto& a, auto& b) {
     return a.at("relative_margin") < b.at("relative_margin");
@@ -158,7 +158,7 @@ std::string RankedTable(const Json& answer) {
                                      {"tank"},
                                      {"kg"}};
   if (cost) columns.push_back({"cost €"});
-  columns.push_back({"binds", Align::kLeft});
+  columns.push_back({"tightest", Align::kLeft});
   if (chances) columns.push_back({"chance"});
   columns.push_back({"est."});
   Table table(columns);
@@ -170,7 +170,7 @@ std::string RankedTable(const Json& answer) {
                                  TankOf(design),
                                  Mass(design)};
     if (cost) row.push_back(Short(design.at("totals").at("cost_eur")));
-    row.push_back(Cut(BindingText(design), 15));
+    row.push_back(Cut(TightestText(design), 15));
     if (chances) row.push_back(Percent(design.at("robustness").at("probability")));
     row.push_back(Estimated(design));
     table.Add(std::move(row));
@@ -193,7 +193,7 @@ std::string WideTable(const Json& designs) {
                {"kPa gauge"},
                {"rise s"},
                {"fall s"},
-               {"binds", Align::kLeft},
+               {"tightest", Align::kLeft},
                {"variants"},
                {"data", Align::kLeft}});
   for (const auto& design : designs) {
@@ -206,7 +206,7 @@ std::string WideTable(const Json& designs) {
                Short(totals.at("cost_eur")),
                Short(design.at("settings").at("source_pressure_kpa_gauge")),
                fmt::format("{:.3f}", Worst(design, "rise_time_s")),
-               fmt::format("{:.3f}", Worst(design, "fall_time_s")), BindingText(design),
+               fmt::format("{:.3f}", Worst(design, "fall_time_s")), TightestText(design),
                variants.contains("found") ? Grouped(variants.at("found")) : "–", MarkOf(design)});
   }
   return table.Text();

@@ -29,7 +29,7 @@ std::string VariantsText(const api::Json& design);
 std::string QualityLine(const api::Json& answer);
 
 // The requirement that is met most closely; nullptr without any.
-const api::Json* Binding(const api::Json& design);
+const api::Json* Tightest(const api::Json& design);
 
 std::string Percent(const api::Json& share);
 std::string Times(const api::Json& part);  // of how many pieces or metres

@@ -20,6 +20,7 @@ Json NumbersSchema() {
                         {"deviation_sigma", number},
                         {"instead_of", ListOf(text)}});
   schema["properties"]["specimen"] = {{"type", {"string", "null"}}};  // where one has it for itself
+  schema["properties"]["chamber"] = {{"type", "string"}};             // the same of several
   return ListOf(std::move(schema));
 }
 
@@ -50,9 +51,23 @@ Json MeasuredSchema() {
                         {"interval_95", ListOf(number)},
                         {"refused", {{"type", {"string", "null"}}}}}));
 }
+// What runs with other bottles say of the same numbers.
+Json BottlesSchema() {
+  const Json text = {{"type", "string"}}, number = {{"type", {"number", "null"}}};
+  return ListOf(Object({{"specimen", {{"type", {"string", "null"}}}},
+                        {"runs", ListOf(text)},
+                        {"rest_volume_ml", number},
+                        {"verdict", text},
+                        {"numbers", ListOf(Object({{"number", text},
+                                                   {"pressure_kpa_gauge", number},
+                                                   {"fitted", number},
+                                                   {"uncertainty", number},
+                                                   {"agrees", {{"type", "boolean"}}}}))}}));
+}
 Json SavedPartSchema() {
   const Json text = {{"type", "string"}};
   return Object({{"part", text},
+                 {"specimen", {{"type", {"string", "null"}}}},
                  {"numbers", ListOf({{"type", "object"}})},
                  {"refused", ListOf(text)},
                  {"revision", {{"type", {"object", "null"}}}}});
@@ -68,6 +83,7 @@ Json ModelSchema() {
                         {"runs", {{"type", "object"}}},
                         {"effects", ListOf({{"type", "object"}})},
                         {"factors", {{"type", "object"}}}});
+  schema["properties"]["chamber_factors"] = {{"type", "object"}};  // of several chambers
   return schema;
 }
 
@@ -92,6 +108,7 @@ Json DiagnosisSchema() {
        {"numbers", NumbersSchema()},
        {"specimens", SpecimensSchema()},
        {"specimen_spread", {{"type", "object"}}},
+       {"chambers", SpecimensSchema()},
        {"stability", StabilitySchema()},
        {"slips", ListOf(Object({{"what", text}, {"assume", text}}))},
        {"predicts_better",
@@ -99,6 +116,7 @@ Json DiagnosisSchema() {
          {"description", "whether `after` predicts runs that no fit saw better than `before`"}}},
        {"measured", MeasuredSchema()},
        {"measured_refused", ListOf(text)},
+       {"bottles", BottlesSchema()},
        {"candidates",
         ListOf({{"type", "object"}, {"properties", {{"reason", {{"type", {"string", "null"}}}}}}})},
        {"next_experiment", {{"type", {"object", "null"}}}},

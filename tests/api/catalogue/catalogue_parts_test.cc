@@ -120,6 +120,7 @@ TEST(FamilyTables, AgreeWithTheCatalogue) {
                                       "vacuum_pump.power_max_w",
                                       "vacuum_pump.pressure_max_kpa_gauge",
                                       "manifold.critical_ratio",
+                                      "check_valve.critical_ratio",
                                       "ejector.supply_pressure_kpa_gauge",  // of the selection
                                       "ejector.nozzle_diameter_mm",
                                       "ejector.stages"};

@@ -60,16 +60,22 @@ TEST(Parts, EverySeedPartRoundTripsAndConverts) {
     }
   }
   const model::Parts parts = ToModelParts(all, {});
-  EXPECT_EQ(parts.tubing.size() + parts.fittings.size() + parts.valves.size() +
-                parts.compressors.size() + parts.batteries.size() + parts.cylinders.size() +
-                parts.co2.size() + parts.regulators.size() + parts.reservoirs.size() +
-                parts.vacuum_pumps.size() + parts.manifolds.size() + parts.ejectors.size(),
-            static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const auto& part) {
-              const bool vacuum = part.family == "vacuum_pump" || part.family == "ejector";
-              const bool complete =
-                  (!vacuum || StandsVacuum(part)) && (part.family != "manifold" || IsJoint(part));
-              return complete && UseInSearch(part.family, "price_eur") == "adds up";
-            })));
+  EXPECT_EQ(
+      parts.tubing.size() + parts.fittings.size() + parts.valves.size() + parts.compressors.size() +
+          parts.batteries.size() + parts.cylinders.size() + parts.co2.size() +
+          parts.regulators.size() + parts.reservoirs.size() + parts.vacuum_pumps.size() +
+          parts.manifolds.size() + parts.ejectors.size() + parts.check_valves.size(),
+      static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const auto& part) {
+        const bool vacuum = part.family == "vacuum_pump" || part.family == "ejector";
+        const auto knows = [&](const char* field) { return part.numbers.contains(field); };
+        const bool checks = knows("mass_kg") && knows("body_volume_ml") &&
+                            knows("sonic_conductance_dm3_per_s_bar") &&
+                            knows("cracking_pressure_kpa_gauge") && knows("pressure_max_kpa_gauge");
+        const bool complete = (!vacuum || StandsVacuum(part)) &&
+                              (part.family != "manifold" || IsJoint(part)) &&
+                              (part.family != "check_valve" || checks);
+        return complete && UseInSearch(part.family, "price_eur") == "adds up";
+      })));
 }
 
 TEST(Parts, RandomPartsWithDetailsRoundTrip) {
@@ -162,6 +168,78 @@ TEST(Parts, AConductanceMayBeGivenAsItIsPrinted) {
   EXPECT_THAT(error(R"({ "cv": 0.05, "at": "6 to 5 bar" })", "/at"), HasSubstr("unknown field"));
   EXPECT_THAT(error(R"({ "kv": -1 })", "/kv"), HasSubstr("must be ≥ 1e-6"));
   EXPECT_THAT(error(R"("Cv many")", ""), HasSubstr("is \"many\""));
+}
+
+TEST(Parts, ABodyMayBeGivenByItsSides) {
+  const auto read = [](const char* value) {
+    Json json = RenderPart(PartOf("battery"));
+    json["body_volume_ml"] = Parse(value);
+    json["provenance"]["body_volume_ml"]["source"] = "sheet 7";
+    return ParsePart(json);
+  };
+  for (const auto& [given, value] :
+       {std::pair{R"({ "length_mm": 70, "width_mm": "3 cm", "height_mm": 50 })", 105.0},
+        std::pair{R"("70 x 30 x 50 mm")", 105.0},
+        std::pair{R"({ "diameter_mm": 18.5, "length_mm": 65 })", 17.4721639},
+        std::pair{R"("⌀18.5 x 65")", 17.4721639}}) {
+    const auto parsed = read(given);
+    ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed)) << given;
+    const catalog::Number& number = std::get<catalog::Part>(parsed).numbers.at("body_volume_ml");
+    EXPECT_NEAR(number.value, value, 1e-6) << given;
+    EXPECT_EQ(number.provenance, catalog::Provenance::kDerived);
+    EXPECT_THAT(number.source, HasSubstr("V = ")) << given;
+    EXPECT_THAT(number.source, HasSubstr("; sheet 7")) << given;
+  }
+  const auto error = [&](const char* wrong, const std::string& at) {
+    return DetailAt(ErrorsOf(read(wrong)), "/body_volume_ml" + at);
+  };
+  EXPECT_THAT(error(R"("18.5 x 65 mm")", ""), HasSubstr("write ⌀ before the diameter"));
+  EXPECT_THAT(error(R"({ "length_mm": 70, "width_mm": 0 , "height_mm": 5 })", "/width_mm"),
+              HasSubstr("must be"));
+  EXPECT_THAT(error(R"({ "length_mm": 70 })", "/width_mm"), HasSubstr("required"));
+}
+
+TEST(Parts, APumpMayBeGivenByItsFreeFlow) {
+  const auto read = [](const Json& curve) {
+    Json json = RenderPart(PartOf("compressor"));
+    json["voltage_v"] = 12;
+    json["pressure_max_kpa_gauge"] = 150;
+    json["type"] = "diaphragm";
+    json["curve"] = curve;
+    json.erase("power_max_w");
+    json.erase("power_min_w");
+    json.erase("provenance");
+    return ParsePart(json);
+  };
+  for (const char* given : {R"({ "free_flow_l_per_min": 8.5, "current_a": "900 mA" })",
+                            R"("free flow 8.5 L/min, 0.9 A")"}) {
+    const auto parsed = read(Parse(given));
+    for (const Error& error : ErrorsOf(parsed)) ADD_FAILURE() << error.pointer << error.detail;
+    ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed)) << given;
+    const catalog::Part& pump = std::get<catalog::Part>(parsed);
+    ASSERT_EQ(pump.curve->points.size(), 11u);
+    EXPECT_EQ(pump.curve->points[0].free_air_l_per_min, 8.5);
+    EXPECT_EQ(pump.curve->points[10].pressure_kpa_gauge, 150);
+    EXPECT_EQ(pump.curve->points[10].current_a, 0.9);
+    EXPECT_EQ(pump.curve->free_air_provenance, catalog::Provenance::kEstimated);
+    EXPECT_TRUE(pump.curve->free_air_uncertainty);
+    EXPECT_NEAR(pump.numbers.at("power_max_w").value, 10.8, 1e-12);
+  }
+  EXPECT_THAT(DetailAt(ErrorsOf(read(Parse(R"({ "free_flow_l_per_min": 0 })"))),
+                       "/curve/free_flow_l_per_min"),
+              HasSubstr("must be"));
+  EXPECT_THAT(DetailAt(ErrorsOf(read("free flow much")), "/curve"), HasSubstr("free flow must"));
+}
+
+TEST(Parts, ACurrentMayBeGivenAsACRate) {
+  for (const char* given : {R"({ "c_rate": 25 })", R"("25C")"}) {
+    Json json = RenderPart(PartOf("battery"));
+    json["capacity_ah"] = 2.2;
+    json["current_max_a"] = Parse(given);
+    const auto parsed = ParsePart(json);
+    ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed)) << given;
+    EXPECT_NEAR(std::get<catalog::Part>(parsed).numbers.at("current_max_a").value, 55, 1e-12);
+  }
 }
 
 TEST(Parts, NumbersMayCarryUnits) {

@@ -12,23 +12,7 @@
 namespace plenum::api {
 namespace direct_pump_test {
 
-// A pump for one group of slow fingers.
-Json Asked(int groups = 1) {
-  Json request = Example("gripper");
-  Json finger = request["actuators"][0];
-  finger["count"] = 2;
-  finger["rise_time_s_max"] = 2.0;
-  finger["fall_time_s_max"] = 2.0;
-  request["actuators"] = Json::array();
-  for (int g = 0; g < groups; ++g) {
-    finger["name"] = "fingers " + std::to_string(g);
-    request["actuators"].push_back(finger);
-  }
-  request["duty"] = {{"frequency_hz", 0.1}, {"actuations", 500}, {"simultaneous", groups == 1}};
-  request["supply"] = {{"configurations", {"direct_pump"}}};
-  request["ranking"] = {{"count", 2}, {"list", "combinations"}, {"proof", true}};
-  return request;
-}
+Json Asked(int groups = 1) { return SlowFingers(groups); }
 
 TEST(DirectPumpTest, IsDesignedAndVerified) {
   const Json answer = Answered(Asked());
@@ -82,13 +66,6 @@ TEST(DirectPumpTest, IsAskedForByNameAlone) {
   const auto parsed = ParseRequirements(request, Project().parts);
   const auto& problem = std::get<DesignRequest>(parsed).problem;
   EXPECT_FALSE(problem.configurations.contains(optimizer::Configuration::kDirectPump));
-}
-
-std::string Pointers(const Json& request) {
-  std::string all;
-  for (const Error& error : ErrorsOf(ParseRequirements(request, Project().parts)))
-    all += error.pointer + " ";
-  return all;
 }
 
 TEST(DirectPumpTest, NamesWhatIsWrongWithARequest) {
@@ -235,6 +212,19 @@ TEST(OwnPumps, VerifyRefusesWhatIsTamperedWith) {
                                         if (parts[i]["family"] == "manifold") parts.erase(i);
                                     }}};
   ExpectRefused(Answered(Kit()), kTamperings);
+}
+
+// A stroke that begins as the period ends is done in the next one, and takes as much.
+TEST(OwnPumps, AStrokeMayCrossThePeriodsEnd) {
+  Json request = Kit();
+  const Json from_the_start = Answered(request)["designs"][0];
+  request["actuators"][0]["phase"] = 0.9;
+  const Json answer = Answered(request);
+  EXPECT_EQ(Refusals(answer), "");
+  for (const char* setting : {"compressor_duty", "source_pressure_kpa_gauge"}) {
+    const double before = from_the_start["settings"][setting];
+    EXPECT_NEAR(answer["designs"][0]["settings"][setting].get<double>(), before, 1e-6 * before);
+  }
 }
 
 TEST(OwnPumps, OfEachGroupMayFillAtOnce) {

@@ -98,6 +98,8 @@ TEST(DoubleActing, TakesTheAirThatTheGasLawSays) {
     }
     EXPECT_NEAR(design["performance"]["air_total_l_anr"].get<double>(),
                 1000 * 2 * air_kpa_ml / 100 / 1e3, 0.01);
+    EXPECT_NEAR(design["performance"]["air_per_actuation_l_anr"].get<double>(),
+                air_kpa_ml / 100 / 1e3, 1e-5);
   }
 }
 

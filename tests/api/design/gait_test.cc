@@ -55,13 +55,6 @@ TEST(GaitRequestTest, VerifyRefusesWhatIsTamperedWith) {
   ExpectRefused(Answered(Asked()), kTamperings);
 }
 
-std::string Pointers(const Json& request) {
-  std::string all;
-  for (const Error& error : ErrorsOf(ParseRequirements(request, Project().parts)))
-    all += error.pointer + " ";
-  return all;
-}
-
 TEST(GaitRequestTest, NamesWhatIsWrong) {
   EXPECT_EQ(Pointers(Asked()), "");
   const auto with = [](const char* field, const Json& value) {

@@ -163,13 +163,6 @@ TEST(VacuumTest, IsGuaranteed) {
     EXPECT_GE(margin["relative_margin"].get<double>(), -1e-9) << margin;
 }
 
-std::string Pointers(const Json& request) {
-  std::string all;
-  for (const Error& error : ErrorsOf(ParseRequirements(request, Project().parts)))
-    all += error.pointer + " ";
-  return all;
-}
-
 TEST(VacuumTest, NamesWhatIsWrongWithARequest) {
   const auto with = [](const auto& change) {
     Json request = Example("jamming_gripper");

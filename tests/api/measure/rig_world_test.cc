@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "api/json/reader.h"
 #include "api/measure/measurement.h"
@@ -110,6 +113,26 @@ TEST(RigWorld, AFlowControllerFillsEvenly) {
     EXPECT_NE(spec->place, model::EffectPlace::kSupply) << spec->id;
 }
 
+// What the line conducts shows only where gas leaves through it again, or where its head is read.
+TEST(RigWorld, BehindAFlowControllerTheLineTellsNothingUntilItEmpties) {
+  Json document = Litre(RunOf(
+      R"({ "id": "r", "initial": { "pressure_kpa_gauge": 0 },
+           "valve": [ { "t_s": 0, "state": "hold" }, { "t_s": 1, "state": "inflate" } ] })"));
+  document["rig"]["supply"] = {{"kind", "flow"}, {"flow_l_per_min_anr", 6.0}};
+  const auto of_the_line = [](const Json& measured) {
+    std::set<std::string> ids;
+    for (const model::EffectSpec* spec : calibration::Nameable(Read(measured)))
+      for (const std::string_view id :
+           {"cracking_pressure", "directional_conductance", "valve_ramp",
+            "number:sonic_conductance", "number:critical_ratio"})
+        if (spec->id == id) ids.emplace(id);
+    return ids;
+  };
+  EXPECT_TRUE(of_the_line(document).empty());
+  document["runs"][0]["valve"].push_back({{"t_s", 1.5}, {"state", "deflate"}});
+  EXPECT_EQ(of_the_line(document).size(), 5u);
+}
+
 // Of the readings by each number, Pa, against central differences.
 void ExpectDerivatives(const Dataset& dataset, const std::vector<Declared>& numbers,
                        double off_pa) {
@@ -174,8 +197,10 @@ TEST(RigWorld, WhatCannotBeIsNamed) {
   };
   Json document = Litre(RunOf(kEvacuated));
   document["rig"]["supply"] = {{"kind", "regulated"}};
-  document["runs"][0]["source_pressure_kpa_gauge"] = -100.0;  // an absolute 0
+  document["runs"][0]["source_pressure_kpa_gauge"] = -100.1;  // below an absolute 0
   EXPECT_EQ(first_error(document), "/runs/0/source_pressure_kpa_gauge");
+  document["runs"][0]["source_pressure_kpa_gauge"] = -100.0;
+  EXPECT_EQ(first_error(document), "none");
   document["runs"][0]["source_pressure_kpa_gauge"] = -90.0;
   document["rig"]["gas"] = "neon";
   EXPECT_EQ(first_error(document), "/rig/gas");

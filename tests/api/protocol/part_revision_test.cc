@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "api/catalogue/stores.h"
 #include "tests/api/support.h"
@@ -79,6 +80,113 @@ TEST(PartRevision, AContradictionIsShownAndNotAveraged) {
   EXPECT_FALSE(RevisePart(part, answer, Files(), false).part);  // a sheet: 5 %
   part.numbers[kField].provenance = Origin::kEstimated;         // a rule: 25 %
   EXPECT_TRUE(RevisePart(part, answer, Files(), false).part);
+}
+
+constexpr const char* kRatio = "critical_ratio_fill";
+
+// Not the number that contradicts a sheet, but the other one is written.
+TEST(PartRevision, OneContradictionDoesNotBlockTheOthers) {
+  catalog::Part part = PartOf("valve");
+  part.numbers[kField] = {0.30, Origin::kDatasheet, "sheet"};
+  part.numbers[kRatio] = {0.30, Origin::kDatasheet, "sheet"};
+  const Json answer = Answer(Json::array({Row(kField, 0.20, 0.01), Row(kRatio, 0.31, 0.01)}));
+  const PartRevision revised = RevisePart(part, answer, Files(), false);
+  ASSERT_TRUE(revised.part) << revised.told.dump();
+  EXPECT_EQ(revised.part->numbers.at(kField), part.numbers.at(kField));
+  EXPECT_DOUBLE_EQ(revised.part->numbers.at(kRatio).value, 0.31);
+  EXPECT_EQ(revised.told["numbers"][0]["written"], false);
+  EXPECT_EQ(revised.told["numbers"][1]["written"], true);
+  ASSERT_EQ(revised.told["refused"].size(), 1u);
+  EXPECT_THAT(revised.told["refused"][0].get<std::string>(), HasSubstr(kField));
+  // What was left out can be written from the same recording, and what was written counts once.
+  const PartRevision anyway = RevisePart(*revised.part, answer, Files(), true);
+  ASSERT_TRUE(anyway.part) << anyway.told.dump();
+  EXPECT_DOUBLE_EQ(anyway.part->numbers.at(kField).value, 0.20);
+  EXPECT_EQ(anyway.part->numbers.at(kRatio), revised.part->numbers.at(kRatio));
+  EXPECT_EQ(anyway.part->documents.size(), revised.part->documents.size());
+}
+
+// C 0.150 for 0.29 and b 0.31 for 0.22, of rules of the catalogue.
+TEST(PartRevision, AnEstimateThatIsOffIsWrittenOverWithAWarning) {
+  catalog::Part part = PartOf("valve");
+  part.numbers[kField] = {0.150, Origin::kEstimated, "rule"};
+  part.numbers[kRatio] = {0.31, Origin::kEstimated, "rule"};
+  const Json answer = Answer(Json::array({Row(kField, 0.29, 0.005), Row(kRatio, 0.22, 0.02)}));
+  const PartRevision revised = RevisePart(part, answer, Files(), false);
+  ASSERT_TRUE(revised.part) << revised.told.dump();
+  EXPECT_TRUE(revised.told["refused"].empty());
+  EXPECT_DOUBLE_EQ(revised.part->numbers.at(kField).value, 0.29);
+  EXPECT_TRUE(revised.told["numbers"][0]["contradiction"].is_null());
+  EXPECT_EQ(revised.told["numbers"][0]["warning"], "the estimate 0.15 was 48 % too low");
+  EXPECT_EQ(revised.told["numbers"][1]["warning"], "the estimate 0.31 was 41 % too high");
+  part.numbers[kField].value = 0.28;  // within 25 %
+  EXPECT_TRUE(RevisePart(part, answer, Files(), false).told["numbers"][0]["warning"].is_null());
+}
+
+// By hand: A 0.30 ± 1 %, B 0.33 ± 1 %: mean 0.315, spread 0.0212, standard error 0.015.
+TEST(PartRevision, PiecesOfATypeCombineWithTheirSpread) {
+  catalog::Part part = PartOf("valve");
+  part.numbers[kField].provenance = Origin::kEstimated;
+  const auto test = [&](double fitted, const std::string& hash, const char* piece) {
+    const PartRevision revised = RevisePart(part, Answer(Json::array({Row(kField, fitted, 0.01)})),
+                                            Files(hash), false, piece);
+    EXPECT_TRUE(revised.part) << revised.told.dump();
+    if (revised.part) part = *revised.part;
+    return revised.told;
+  };
+  test(0.30, std::string(64, 'a'), "A");
+  EXPECT_DOUBLE_EQ(part.numbers.at(kField).uncertainty.value(), 0.01);
+  const Json told = test(0.33, std::string(64, 'b'), "B");
+  EXPECT_EQ(told["specimen"], "B");
+  EXPECT_EQ(told["numbers"][0]["pieces"], 2);
+  EXPECT_EQ(told["numbers"][0]["combined"], false);
+  const double spread = 0.03 / std::sqrt(2.0), error = 0.015;
+  EXPECT_DOUBLE_EQ(part.numbers.at(kField).value, 0.315);
+  EXPECT_NEAR(*part.numbers.at(kField).uncertainty, std::hypot(spread, error) / 0.315, 1e-4);
+  EXPECT_NEAR(told["numbers"][0]["spread"].get<double>(), spread / 0.315, 1e-9);
+  EXPECT_EQ(part.documents.back().link, "recording.csv, piece B");
+  EXPECT_THAT(part.numbers.at(kField).source, HasSubstr("\"A\" 0.3 ± 0.01; \"B\" 0.33 ± 0.01"));
+  // A second test of A combines with that of A.
+  EXPECT_EQ(test(0.302, std::string(64, 'c'), "A")["numbers"][0]["combined"], true);
+  EXPECT_NEAR(part.numbers.at(kField).value, (0.300993 + 0.33) / 2.0, 1e-5);
+  // A third one of A that is far off contradicts it.
+  const PartRevision off = RevisePart(part, Answer(Json::array({Row(kField, 0.35, 0.01)})),
+                                      Files(std::string(64, 'd')), false, "A");
+  EXPECT_FALSE(off.part);
+  // A value that was typed since is a test of a piece without a name.
+  part.numbers[kField].value = 0.5;
+  test(0.30, std::string(64, 'e'), "C");
+  EXPECT_DOUBLE_EQ(part.numbers.at(kField).value, 0.4);
+}
+
+TEST(PartRevision, ACurveOfTwoPumpsIsTheirMean) {
+  catalog::Part part = PartOf("compressor");
+  part.curve->free_air_provenance = Origin::kEstimated;
+  for (const auto& [piece, factor] : {std::pair{"one", 1.0}, std::pair{"two", 1.1}}) {
+    Json rows = Json::array();
+    const double fitted[] = {20.0, 12.0, 6.0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Json row = Row("free_air", factor * fitted[i], 0.01);
+      row["part"] = part.id;
+      row["pressure_kpa_gauge"] = part.curve->points[i].pressure_kpa_gauge;
+      rows.push_back(row);
+    }
+    const std::string hash(64, piece[0] == 'o' ? 'a' : 'b');
+    const PartRevision revised = RevisePart(part, Answer(rows), Files(hash), false, piece);
+    ASSERT_TRUE(revised.part) << revised.told.dump();
+    part = *revised.part;
+  }
+  EXPECT_DOUBLE_EQ(part.curve->points[1].free_air_l_per_min, 12.6);
+  const double spread = 0.1 / std::sqrt(2.0) / 1.05;
+  EXPECT_NEAR(part.curve->free_air_uncertainty.value(), std::hypot(spread, 0.05 / 1.05), 1e-4);
+}
+
+TEST(PartRevision, APieceHasAShortName) {
+  EXPECT_EQ(WhyInvalidSpecimen("pump 2", "valve-1"), "");
+  EXPECT_EQ(WhyInvalidSpecimen("", ""), "");
+  EXPECT_THAT(WhyInvalidSpecimen("pump 2", ""), HasSubstr("no part"));
+  EXPECT_THAT(WhyInvalidSpecimen(std::string(65, 'x'), "valve-1"), HasSubstr("64"));
+  EXPECT_THAT(WhyInvalidSpecimen("a\nb", "valve-1"), HasSubstr("one line"));
 }
 
 TEST(PartRevision, WhatTheDiagnosisRefusesIsNotWritten) {

@@ -32,6 +32,7 @@ TEST(Protocol, EveryTestHasStepsAndAPrecisionForEachOfItsNumbers) {
     const Json protocol = RenderProtocol(part, {});
     std::size_t tests = 0;
     for (const Protocol& known : Protocols()) tests += known.family == part.family;
+    for (const char* mass : {"mass_kg", "mass_kg_per_m"}) tests += part.numbers.contains(mass);
     ASSERT_EQ(protocol["tests"].size(), tests) << part.family;
     for (const Json& test : protocol["tests"]) {
       EXPECT_FALSE(test["steps"].empty()) << part.family << test["protocol"];
@@ -93,6 +94,49 @@ TEST(Protocol, ABetterSensorTellsMore) {
 TEST(Protocol, AConductanceIsNoBetterThanItsBottle) {
   const Json fine = Of("valve", {.noise_kpa = 0.01, .resolution_kpa = 0.0});
   EXPECT_GE(Uncertainty(fine, "sonic_conductance_fill_dm3_per_s_bar"), 0.002);
+}
+
+// Unless it was weighed 2 % are assumed, and marked.
+TEST(Protocol, TheVolumesUncertaintyIsAssumedUnlessItIsStated) {
+  const auto template_of = [](const TestSensor& sensor) {
+    return Of("valve", sensor)["tests"][0]["recording"]["template"]["relative_uncertainty"];
+  };
+  EXPECT_EQ(template_of({})["rest_volume"], 0.02);
+  EXPECT_THAT(template_of({})["note"].get<std::string>(), testing::HasSubstr("assumed"));
+  EXPECT_EQ(template_of({.bottle_uncertainty = 0.002})["rest_volume"], 0.002);
+  EXPECT_FALSE(template_of({.bottle_uncertainty = 0.002}).contains("note"));
+  const char* field = "sonic_conductance_fill_dm3_per_s_bar";
+  EXPECT_GE(Uncertainty(Of("valve"), field), 0.02);
+  EXPECT_LT(Uncertainty(Of("valve", {.bottle_uncertainty = 0.002}), field), 0.01);
+}
+
+// One run with another bottle, and the time that the diagnosis of a pump takes.
+TEST(Protocol, TheTemplateHasARunOfASecondBottle) {
+  for (const char* family : {"valve", "fitting", "regulator", "compressor"}) {
+    const Json test = Of(family)["tests"][0];
+    const Json& file = test["recording"]["template"];
+    ASSERT_EQ(file["runs"].size(), 4u);
+    EXPECT_EQ(file["runs"][0]["specimen"], "first bottle");
+    EXPECT_EQ(file["runs"][3]["specimen"], "second bottle");
+    EXPECT_EQ(file["runs"][3]["rig"]["actuator"]["rest_volume_ml"],
+              1e3 * test["equipment"]["check_bottle_l"].get<double>());
+    EXPECT_NE(test["equipment"]["check_bottle_l"], test["equipment"]["bottle_l"]);
+    EXPECT_EQ(file["time_limit_s"], 300.0);
+  }
+}
+
+TEST(Protocol, AScaleFitsTheMass) {
+  catalog::Part part = PartOf("valve");
+  part.numbers["mass_kg"].value = 0.0253;
+  const Json protocol = RenderProtocol(part, {});
+  const Json& weighing = protocol["tests"].back();
+  EXPECT_EQ(weighing["protocol"], "weighing");
+  EXPECT_THAT(weighing["steps"].dump(), testing::HasSubstr("step is 0.1 g or less"));
+  EXPECT_THAT(weighing["steps"].dump(), testing::HasSubstr("coil"));
+  EXPECT_THAT(weighing["steps"].dump(), testing::HasSubstr("catalog measured " + part.id));
+  // By hand: 0.1 g/√36 of 25.3 g, and 0.1 %.
+  EXPECT_NEAR(weighing["precision"][0]["uncertainty"].get<double>(),
+              std::hypot(0.1 / 6.0 / 25.3, 0.001), 1e-6);
 }
 
 TEST(Protocol, ASlowAndNoisySensorCannotTellTheKnee) {

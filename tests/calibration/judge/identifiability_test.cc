@@ -69,6 +69,22 @@ TEST(Identify, ConductanceAndVolumeOfOneChamberAreAliases) {
   EXPECT_THAT(Sentences(found)[0], testing::HasSubstr("rest_volume and sonic_conductance"));
 }
 
+// A measured conductance and the bottle behind it: what that means is said, not the names alone.
+TEST(Identify, AMeasuredConductanceIsAsWellKnownAsItsVolume) {
+  Dataset dataset = MakeData(false, false);
+  dataset.relative_uncertainty[kVolume] = 0.02;
+  dataset.measured = {{"valve-1", "sonic_conductance_fill"}};
+  dataset.measured[0].declared = 5e-10;
+  dataset.runs[0].measured.places = {{0, MeasuredPlace::Of::kFillConductance, 0},
+                                     {0, MeasuredPlace::Of::kExhaustConductance, 0}};
+  const Identifiability found = Of(dataset);
+  EXPECT_THAT(found.aliases, IsEmpty());
+  EXPECT_THAT(found.by_volume, UnorderedElementsAre("sonic_conductance_fill of valve-1"));
+  EXPECT_EQ(Sentences(found)[0],
+            "sonic_conductance_fill of valve-1 is known only as well as the volume of the bottle, "
+            "which is declared to 2 %: where the volume is 2 % wrong, so is it.");
+}
+
 TEST(Identify, EachAloneIsFixed) {
   for (const std::size_t number : {kVolume, kConductance}) {
     Dataset dataset = MakeData(false, false);

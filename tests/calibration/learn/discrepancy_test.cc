@@ -134,13 +134,13 @@ TEST(Discrepancy, OneTermRivalsWhatOnlyImitatesAndNotWhatIsTrue) {
   const Fit imitation = Named(seam, imitating);
   ASSERT_TRUE(imitation.Usable());
   ASSERT_LT(imitation.bic, seam.established.bic);
-  EXPECT_TRUE(TermRivals(seam.data, seam.established, imitation, seam.options));
+  EXPECT_TRUE(RivalOf(seam.data, seam.established, imitation, seam.options).instead);
 
   const test::BenchCase pair = test::DrawCase(2, test::CaseKind::kPair);
   const Learning two(test::ToDataset(pair));
   const Fit truth = Named(two, test::ListedOf(pair));
   ASSERT_TRUE(truth.Usable());
-  EXPECT_FALSE(TermRivals(two.data, two.established, truth, two.options));
+  EXPECT_FALSE(RivalOf(two.data, two.established, truth, two.options).instead);
 }
 
 // Both are in every curve of the sensor.
@@ -154,7 +154,9 @@ TEST(Discrepancy, ACurveOfTheSensorIsNoRivalOfItsGainAndItsOffset) {
   const Fit truth = Named(learning, {{model::FindEffect("sensor_gain"), {1.01}},
                                      {model::FindEffect("sensor_offset"), {500.0}}});
   ASSERT_TRUE(truth.Usable());
-  EXPECT_FALSE(TermRivals(learning.data, learning.established, truth, learning.options));
+  const Rival rival = RivalOf(learning.data, learning.established, truth, learning.options);
+  EXPECT_FALSE(rival.instead);
+  EXPECT_EQ(rival.as_good, nullptr);
 }
 
 TEST(Discrepancy, NothingIsLearnedFromNoise) {

@@ -186,6 +186,21 @@ TEST(WrongNumbers, NumbersAtAnEndOrFarOffAreSaid) {
   EXPECT_THAT(said, Contains(testing::HasSubstr("source_pressure ended at an end")));
 }
 
+// A critical ratio of 0 is no absence: it shapes what the leak does. A strength of 0 is one.
+TEST(WrongNumbers, OnlyAStrengthOfZeroIsAnAbsence) {
+  Fit fit;
+  fit.state.effects = {{model::FindEffect("leak", "orifice"), {0.0, 0.0}}};
+  for (const std::size_t number : {0u, 1u})
+    fit.coordinates.push_back(
+        {.parameter = {.kind = Parameter::Kind::kEffect, .effect = 0, .number = number},
+         .low = 0.0,
+         .high = 20.0});
+  fit.u = Eigen::VectorXd::Zero(2);
+  const std::vector<std::string> said = FarNumbers(Dataset{}, fit);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_THAT(said.front(), testing::HasSubstr("critical_ratio ended at an end"));
+}
+
 // The laboratory lies at 1,700 m, and the rig is declared at sea level: gauges show the same.
 TEST(WrongNumbers, AnAmbientPressureThatIsLowerThanDeclaredIsNamed) {
   constexpr double kTruePa = 82e3;

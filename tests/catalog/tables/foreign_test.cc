@@ -3,12 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "catalog/tables/part_rows.h"
 #include "catalog/tables/reading.h"
-#include "tests/support/places.h"
+#include "tests/catalog/foreign_tables.h"
 
 namespace plenum::catalog {
 namespace foreign_test {
@@ -18,78 +15,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string Bytes(const std::string& name) {
-  std::ifstream file(test::SourceDir() / "tests/catalog/tables" / name, std::ios::binary);
-  EXPECT_TRUE(file) << name;
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-struct Read {
-  TableReading reading;
-  std::vector<Part> parts;
-  std::vector<int> rows;
-  std::vector<CsvError> errors;
-};
-
-Read ReadAs(const std::string& family, const std::string& bytes, const TableOptions& options = {}) {
-  Read read{ReadTable(family, bytes, options), {}, {}, {}};
-  if (!read.reading.errors.empty() || !read.reading.questions.empty()) return read;
-  read.errors = ReadRows(family, RowsOf(read.reading, bytes), [&](Part part, int row) {
-                  read.parts.push_back(std::move(part));
-                  read.rows.push_back(row);
-                }).errors;
-  return read;
-}
-
-struct Fact {  // of the part in this place
-  std::size_t part;
-  const char* field;
-  double value;
-};
-
-struct ForeignTable {
-  const char* file;
-  const char* family;
-  std::vector<std::string> ids;
-  std::vector<Fact> facts;
-  TableOptions options = {};
-};
-
-std::ostream& operator<<(std::ostream& out, const ForeignTable& table) { return out << table.file; }
+using namespace foreign_tables;
 
 class Foreign : public testing::TestWithParam<ForeignTable> {};
 
-TEST_P(Foreign, IsReadWithoutAnEdit) {
-  const ForeignTable& table = GetParam();
-  const Read read =
-      ReadAs(table.family, Bytes(std::string("foreign/") + table.file), table.options);
-  for (const Question& question : read.reading.questions) ADD_FAILURE() << question.text;
-  for (const auto& errors : {read.reading.errors, read.errors})
-    for (const CsvError& error : errors)
-      ADD_FAILURE() << error.row << " " << error.column << ": " << error.detail;
-  std::vector<std::string> ids;
-  for (const Part& part : read.parts) ids.push_back(part.id);
-  EXPECT_EQ(ids, table.ids);
-  ASSERT_EQ(read.parts.size(), table.ids.size());
-  for (const auto& [at, field, value] : table.facts) {
-    const auto number = read.parts.at(at).numbers.find(field);
-    ASSERT_NE(number, read.parts[at].numbers.end()) << field;
-    EXPECT_NEAR(number->second.value, value, 1e-9 * value) << field;
-  }
-}
-
-constexpr char kVolume[] = "internal_volume_ml", kMass[] = "mass_kg", kBody[] = "body_volume_ml",
-               kPressure[] = "pressure_max_kpa_gauge", kOuter[] = "outer_diameter_mm",
-               kInner[] = "inner_diameter_mm", kPerMetre[] = "mass_kg_per_m",
-               kC[] = "sonic_conductance_dm3_per_s_bar";
-
-TableOptions BySetting(std::map<std::string, std::string> columns,
-                       std::map<std::string, std::string> set) {
-  TableOptions options;
-  options.columns = std::move(columns);
-  options.set = std::move(set);
-  return options;
-}
+TEST_P(Foreign, IsReadWithoutAnEdit) { ExpectReadWithoutAnEdit(GetParam()); }
 
 // The same table with the thousands of two languages.
 const std::vector<Fact> kLuxfer{{0, kVolume, 1500.5},
@@ -303,6 +233,12 @@ const OpenTable kOpen[] = {
      "delimiter",
      "comma gives 4 columns",
      {"", "semicolon", "", 0, {}, {}}},
+    {"currency_missing.csv", "silencer", "column", "in which currency is \"12.5\"",
+     BySetting({{"Price", "offer_price [USD]"}}, {})},
+    {"price_of_a_roll.csv", "tubing", "column", "is it the price of a metre",
+     BySetting({}, {{"offer_pack", "50"}})},
+    {"typ.csv", "vacuum_pump", "column", "is it part_number or type?",
+     BySetting({{"Typ", "part_number"}}, {})},
     {"unknown_heading.csv", "manifold", "column", "which column of manifold",
      BySetting({{"Lagerort", ""}}, {})},
 };

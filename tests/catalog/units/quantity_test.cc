@@ -69,6 +69,30 @@ TEST(Quantity, ConvertsUnitsToThoseOfTheField) {
   EXPECT_EQ(ParseQuantity("0.1", "mass_kg").value, 0.1);
 }
 
+TEST(Quantity, ReadsTheUnitsOfPriceLists) {
+  const struct {
+    const char* text;
+    const char* field;
+    double value;
+  } cases[] = {
+      {"6.8 g/ft", "mass_kg_per_m", 0.0223097112860892},
+      {"1.5 lb/100 ft", "mass_kg_per_m", 0.0223224591535433},
+      {"0.24 oz/ft", "mass_kg_per_m", 0.0223224591535433},
+      {"1.2 kg/100 m", "mass_kg_per_m", 0.012},
+      {"2 lbs", "mass_kg", 0.90718474},
+      {"45 grams", "mass_kg", 0.045},
+      {"5 kg/cm2", "pressure_max_kpa_gauge", 490.3325},
+      {"12 V DC", "voltage_v", 12},
+      {"8 LPM", "flow_max_l_per_min_anr", 8},
+      {"0.25 inches", "outer_diameter_mm", 6.35},
+  };
+  for (const auto& [text, field, value] : cases) {
+    const Quantity quantity = ParseQuantity(text, field);
+    ASSERT_TRUE(quantity.value) << text << ": " << quantity.error;
+    EXPECT_NEAR(*quantity.value, value, 1e-12 * value) << text;
+  }
+}
+
 TEST(Quantity, RefusesWhatItCannotConvert) {
   const struct {
     const char* text;

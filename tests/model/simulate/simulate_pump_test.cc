@@ -1,6 +1,7 @@
 // Pumps without a reservoir as the simulator's source.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/simulate/periodic.h"
@@ -64,6 +65,32 @@ TEST(SimulatePumps, RunWhileAValveIsOpenAndKeepTheMass) {
       EXPECT_GT(response.source_pressure_pa[k], of.pressure_pa[k]);
     else
       EXPECT_EQ(response.source_pressure_pa[k], 1e5);
+  }
+}
+
+// A flow controller: what it lets in does not depend on the node, which is found for samples alone;
+// with accounts it is found at every step. In a rigid vessel p' = q·P0/V.
+TEST(SimulatePumps, AGivenFlowFillsEvenlyWhateverTheLineConducts) {
+  PumpSource flow;
+  flow.compressor.free_air_m3_per_s = MonotoneCurve({0.0, 1e8}, {2e-5, 2e-5});
+  flow.compressor.pressure_max_pa = 1e8;
+  GroupRig group = Actuator();
+  group.close_at_operating = false;
+  group.blocked = true;
+  group.schedule = {{0.5, kInflate}, {3.0, kHold}};
+  SimulateOptions options = Until(4.0, 50.0);
+  const Response all = Simulate(RigOf(flow, {group}), options);
+  options.record = Record::kSamples;
+  const Response samples = Simulate(RigOf(flow, {group}), options);
+  ASSERT_EQ(all.status, SimulateStatus::kDone);
+  ASSERT_EQ(samples.status, SimulateStatus::kDone);
+  ASSERT_EQ(all.t_s.size(), samples.t_s.size());
+  const double rate = 2e-5 * kReferencePressurePa / 50e-6;
+  for (std::size_t k = 0; k < all.t_s.size(); ++k) {
+    const double open_s = std::clamp(all.t_s[k] - 0.5, 0.0, 2.5);
+    EXPECT_NEAR(samples.groups[0].pressure_pa[k], 1e5 + rate * open_s, 1.0);
+    EXPECT_NEAR(samples.source_pressure_pa[k], all.source_pressure_pa[k],
+                1e-6 * all.source_pressure_pa[k]);
   }
 }
 

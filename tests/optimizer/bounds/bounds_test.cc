@@ -104,7 +104,7 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
     forget_some();
     while (bounds.CanFindSource(box))
       if (!check(bounds.FindSource(box))) return box;
-    int slot = bounds.WidestSlot(box);
+    int slot = bounds.WidestSlot(box, optimizer::DivideFor::kProof);
     if (const int other = Pick(random, 0, static_cast<int>(plan.slots.size()) - 1);
         !(*plan.slots[other].nodes)[box.nodes[other]].single())
       slot = other;

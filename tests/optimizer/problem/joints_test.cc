@@ -65,16 +65,16 @@ TEST(Joints, AreTheLightestThatPassEnoughAndStandThePressure) {
   problem.groups.front().joint_conductance_m3_per_s_pa = 3.6e-8;
   problem.parts.manifolds = {Row("narrow", 6, 0.01, 1.0), Row("tee", 2, 0.012, 4.0),
                              Row("block", 6, 0.05, 4.0), Row("soft", 6, 0.001, 4.0, 150e3)};
-  EXPECT_EQ(JointOfLines(problem)->manifold, 2);  // five tees weigh more
+  EXPECT_EQ(JointOfLines(problem)->part, 2);  // five tees weigh more
   problem.groups.front().count = 4;
-  EXPECT_EQ(JointOfLines(problem)->manifold, 1);
+  EXPECT_EQ(JointOfLines(problem)->part, 1);
   EXPECT_EQ(JointOfLines(problem)->quantity, 3);
   problem.groups.front().joint_conductance_m3_per_s_pa =
       9e-8;  // more than any passes: of those that pass most
-  EXPECT_EQ(JointOfLines(problem)->manifold, 1);
+  EXPECT_EQ(JointOfLines(problem)->part, 1);
   problem.cost_max_eur = 100.0;
   problem.parts.manifolds[1].basics.cost_eur.reset();
-  EXPECT_EQ(JointOfLines(problem)->manifold, 2);
+  EXPECT_EQ(JointOfLines(problem)->part, 2);
   problem.groups.front().chamber.operating_pressure_pa = 2e6;
   EXPECT_FALSE(JointOfLines(problem));
 }
@@ -98,7 +98,7 @@ TEST(Joints, OfAnEqualGroupSplitInTwoAreTheSame) {
     EXPECT_NEAR(JointConductance(split), JointConductance(whole), 1e-12 * JointConductance(whole));
     const auto one = JointOfLines(whole), two = JointOfLines(split);
     ASSERT_TRUE(one && two);
-    EXPECT_EQ(one->manifold, two->manifold);
+    EXPECT_EQ(one->part, two->part);
     EXPECT_EQ(one->quantity, two->quantity);
   }
 }
@@ -111,7 +111,7 @@ TEST(Joints, BottlesHaveOneThatStandsTheirFill) {
   EXPECT_FALSE(JointOfPieces(problem, Family::kCylinder, 0, 1));
   const auto joint = JointOfPieces(problem, Family::kCylinder, 0, 3);
   ASSERT_TRUE(joint);
-  EXPECT_EQ(joint->manifold, 1);
+  EXPECT_EQ(joint->part, 1);
   EXPECT_EQ(joint->quantity, 2);
   EXPECT_FALSE(JointOfPieces(problem, Family::kBattery, 0, 4));
   Choice row;

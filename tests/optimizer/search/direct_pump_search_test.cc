@@ -8,6 +8,7 @@
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/problem/kind.h"
 #include "tests/support/enumerated_search.h"
+#include "tests/support/pumps/direct_problems.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
@@ -22,17 +23,8 @@ using optimizer::Status;
 // Slow enough for pumps that fill the actuators themselves, with voltages that fit and valves that
 // mostly hold.
 Problem Drawn(std::uint64_t seed, int groups = 1) {
-  Draw draw;
-  draw.seed = 9000 + seed;
-  draw.configurations = {Configuration::kDirectPump};
-  draw.severity = 0.02 * static_cast<double>(seed % 20);
-  draw.groups = groups;
-  draw.simultaneous = groups == 1;
-  draw.size = groups == 1 ? CatalogueSize{3, 3, 4, 0, 0, 0, 4, 3, 0}
-                          : CatalogueSize{2, 2, 3, 0, 0, 0, 3, 2, 0};
-  Problem problem = RandomProblem(draw);
+  Problem problem = DirectPumpProblem(9000 + seed, 0.02 * static_cast<double>(seed % 20), groups);
   Random random(seed);
-  problem.frequency_hz *= 0.5;
   for (model::Compressor& pump : problem.parts.compressors)
     pump.curve.voltage_v = Chance(random, 0.7) ? 12.0 : 6.0;
   for (model::Battery& pack : problem.parts.batteries)
@@ -115,18 +107,11 @@ TEST(DirectPumpSearch, ThreeGroups) {
 }
 
 // Pumps of their own, of which groups may fill at once.
-Problem WithOwnPumps(Problem problem, optimizer::PumpFeed feed) {
-  problem.pump_feed = feed;
-  if (feed == optimizer::PumpFeed::kPerActuator)
-    for (optimizer::ActuatorGroup& group : problem.groups) group.fed_past_valve = true;
-  return problem;
-}
-
 TEST(DirectPumpSearch, PumpsOfEachGroup) {
   Tally tally;
   for (int seed = 1; seed <= Draws(24); ++seed) {
     SCOPED_TRACE(seed);
-    Problem problem = WithOwnPumps(Drawn(300 + seed, 2), optimizer::PumpFeed::kPerGroup);
+    Problem problem = WithFeed(Drawn(300 + seed, 2), optimizer::PumpFeed::kPerGroup);
     problem.simultaneous = seed % 2 == 0;
     problem.limits.batteries = 2;
     Compare(problem, tally);
@@ -139,7 +124,7 @@ TEST(DirectPumpSearch, PumpsOfEachActuator) {
   for (int seed = 1; seed <= Draws(48); ++seed) {
     SCOPED_TRACE(seed);
     const int groups = seed % 3 == 0 ? 2 : 1;
-    Problem problem = WithOwnPumps(Drawn(600 + seed, groups), optimizer::PumpFeed::kPerActuator);
+    Problem problem = WithFeed(Drawn(600 + seed, groups), optimizer::PumpFeed::kPerActuator);
     problem.simultaneous = seed % 2 == 0;
     problem.limits.batteries = 2;
     Compare(problem, tally);
@@ -156,7 +141,7 @@ TEST(DirectPumpSearch, PumpsOfOneGroupAreShared) {
     const Problem shared = Drawn(100 + seed);
     const Answer one = optimizer::SearchTrees(shared, Within(60.0));
     const Answer other =
-        optimizer::SearchTrees(WithOwnPumps(shared, optimizer::PumpFeed::kPerGroup), Within(60.0));
+        optimizer::SearchTrees(WithFeed(shared, optimizer::PumpFeed::kPerGroup), Within(60.0));
     EXPECT_EQ(one.status, other.status);
     ASSERT_EQ(one.designs.size(), other.designs.size());
     for (std::size_t i = 0; i < one.designs.size(); ++i, ++found)

@@ -12,6 +12,7 @@
 #include "optimizer/evaluate/evaluate.h"
 #include "optimizer/evaluate/strokes/full_strokes.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/search/box_search.h"
 #include "optimizer/search/first_designs.h"
 #include "optimizer/search/tree_search.h"
 #include "optimizer/sizing/report.h"
@@ -24,8 +25,8 @@ namespace in_turns_test {
 using optimizer::Bounds;
 using optimizer::Box;
 using optimizer::Configuration;
-using optimizer::Design;
 using optimizer::Problem;
+using optimizer::Variant;
 
 Problem AtOnce(std::uint64_t seed) {
   Draw draw;
@@ -40,10 +41,8 @@ Problem AtOnce(std::uint64_t seed) {
   return problem;
 }
 
-std::vector<Design> InTurnsDesigns(const Problem& problem) {
-  return optimizer::SearchTrees(optimizer::InTurns(problem, Configuration::kCompressor),
-                                Within(0.5))
-      .designs;
+std::vector<Variant> List(const Problem& problem, const optimizer::SearchOptions& options) {
+  return optimizer::ListCombinations(problem, options).combinations;
 }
 
 TEST(InTurnsTest, IsForReservoirsThatStrokesMeetOn) {
@@ -63,7 +62,8 @@ TEST(InTurnsTest, PartsOfADesignInTurns) {
     const auto plan = optimizer::MakePlan(problem, {Configuration::kCompressor});
     if (plan->empty()) continue;
     Bounds bounds(problem, *plan);
-    const std::vector<Design> designs = InTurnsDesigns(problem);
+    const std::vector<Variant> designs =
+        List(optimizer::InTurns(problem, Configuration::kCompressor), Within(5.0));
     std::vector<Box> boxes = optimizer::BoxesLike(problem, bounds, designs);
     ASSERT_EQ(boxes.size(), 3 * designs.size());
     for (std::size_t d = 0; d < designs.size(); ++d) {
@@ -92,6 +92,53 @@ TEST(InTurnsTest, PartsOfADesignInTurns) {
   }
   EXPECT_GT(boxes_seen, 10);
   EXPECT_GT(found, 0);
+}
+
+// A simulation that takes its time, and cannot be stopped for a first design, would outlast the
+// share of the time limit that designs in turns have.
+TEST(InTurnsTest, NoDesignInTurnsIsSimulated) {
+  int boxes_seen = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Problem problem = AtOnce(seed);
+    const auto plan = optimizer::MakePlan(problem, {Configuration::kCompressor});
+    if (plan->empty()) continue;
+    const Bounds bounds(problem, *plan);
+    optimizer::SearchOptions options = Within(5.0);
+    int simulated = 0;
+    options.periodic = [&simulated](auto&&... rest) {
+      ++simulated;
+      return model::FindPeriodicState(rest...);
+    };
+    boxes_seen += static_cast<int>(optimizer::LikeInTurns(problem, bounds, options, List).size());
+    EXPECT_EQ(simulated, 0) << "seed " << seed;
+  }
+  EXPECT_GT(boxes_seen, 0);
+}
+
+// Four legs, two at a time, each twice in a period.
+Problem Gait(std::uint64_t seed) {
+  Draw draw;
+  draw.seed = 4200 + seed;
+  draw.configurations = {Configuration::kCompressor};
+  draw.severity = 0.03 * static_cast<double>(seed % 16);
+  draw.size = {2, 2, 4, 4, 1, 1, 3, 1, 3};
+  Problem problem = RandomProblem(draw);
+  problem.limits = {2, 2, 1, 1, 2};
+  optimizer::ActuatorGroup& legs = problem.groups.front();
+  legs.count = 4;
+  legs.gait = {.phases = {0.0, 0.25, 0.5, 0.75}, .inflate_fraction = 0.3, .strokes_per_period = 2};
+  problem.frequency_hz *= 0.25;
+  return problem;
+}
+
+TEST(InTurnsTest, AGaitOfOneGroupIsBurstsOfTheSameAir) {
+  const Problem problem = Gait(1);
+  ASSERT_TRUE(optimizer::IsCheaperInTurns(problem, Configuration::kCompressor));
+  const Problem bursts = optimizer::InTurns(problem, Configuration::kCompressor);
+  EXPECT_FALSE(optimizer::IsCheaperInTurns(bursts, Configuration::kCompressor));
+  EXPECT_EQ(bursts.groups.front().count, 2);
+  EXPECT_DOUBLE_EQ(bursts.frequency_hz, 4.0 * problem.frequency_hz);
+  EXPECT_DOUBLE_EQ(bursts.actuations, 4.0 * problem.actuations);
 }
 
 // What is too slow out of a full reservoir is too slow in the periodic state.

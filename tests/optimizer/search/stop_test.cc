@@ -19,7 +19,7 @@ using optimizer::Problem;
 using optimizer::SearchOptions;
 using optimizer::Status;
 
-// Two groups at once: every stroke is the simulator's.
+// Two groups at once: listed designs are simulated, and strokes that no integration tells.
 Problem TogetherProblem(std::uint64_t seed, Configuration configuration) {
   Problem problem = EasyProblem(seed, {configuration});
   problem.groups.push_back(problem.groups[0]);
@@ -32,6 +32,13 @@ Problem TogetherProblem(std::uint64_t seed, Configuration configuration) {
   problem.exclude.insert("custom");
   problem.limits = {1, 1, 1, 1, 1};
   problem.count = 2;
+  return problem;
+}
+
+// The second group begins while the first still fills: every stroke is the simulator's.
+Problem OverlappingProblem(std::uint64_t seed, Configuration configuration) {
+  Problem problem = TogetherProblem(seed, configuration);
+  problem.groups[1].gait.phases.assign(static_cast<std::size_t>(problem.groups[1].count), 0.02);
   return problem;
 }
 
@@ -67,30 +74,40 @@ TEST(StopTest, SolverThatAlwaysFailsLeavesAllLeavesOpen) {
   }
 }
 
-// A made-to-measure reservoir whose simulations fail stays open and is counted.
-TEST(StopTest, SolverThatFailsLeavesMadeReservoirsOpen) {
-  Problem problem = TogetherProblem(5, Configuration::kCompressor);
-  problem.exclude.erase("custom");
-  problem.require[optimizer::Family::kReservoir] = {"custom"};
-  problem.parts.reservoirs.clear();
-  problem.parts.batteries.resize(1);
-  problem.parts.valves.resize(1);
-  problem.count = 1;
-  problem.parts.tubing.resize(1);
+// A made-to-measure reservoir whose simulations fail, from one of them on, stays open and is
+// counted.
+void ExpectLeftOpen(const Problem& problem, int calls_max) {
   const Answer truth = optimizer::SearchTrees(problem, Within(60.0));
   ASSERT_EQ(truth.status, Status::kOptimal);
   ASSERT_FALSE(truth.designs.empty());
   int calls = 0;
   SearchOptions options = Within(60.0);
   options.periodic = [&](auto&&... rest) {
-    return ++calls > 12 ? Failed(model::PeriodicStatus::kNotConverged)
-                        : model::FindPeriodicState(rest...);
+    return ++calls > calls_max ? Failed(model::PeriodicStatus::kNotConverged)
+                               : model::FindPeriodicState(rest...);
   };
   const Answer answer = optimizer::SearchTrees(problem, options);
+  EXPECT_GT(calls, calls_max);
   EXPECT_EQ(answer.status, Status::kFeasible);
   EXPECT_TRUE(answer.designs.empty());
   EXPECT_GT(answer.proof.undecided, 0);
   EXPECT_LE(answer.proof.lower_bound, truth.designs.front().objective);
+}
+
+TEST(StopTest, SolverThatFailsLeavesMadeReservoirsOpen) {
+  for (const bool overlap : {false, true}) {
+    SCOPED_TRACE(overlap);
+    Problem problem = overlap ? OverlappingProblem(5, Configuration::kCompressor)
+                              : TogetherProblem(5, Configuration::kCompressor);
+    problem.exclude.erase("custom");
+    problem.require[optimizer::Family::kReservoir] = {"custom"};
+    problem.parts.reservoirs.clear();
+    problem.parts.batteries.resize(1);
+    problem.parts.valves.resize(1);
+    problem.count = 1;
+    problem.parts.tubing.resize(1);
+    ExpectLeftOpen(problem, overlap ? 12 : 0);
+  }
 }
 
 // What fails for some designs is not taken for infeasible: each design of the true list is listed,
@@ -135,7 +152,7 @@ optimizer::PeriodicSolver Endless(std::atomic<bool>& begun) {
 }
 
 TEST(StopTest, CancelFromAnotherThreadReachesALeaf) {
-  const Problem problem = TogetherProblem(5, Configuration::kCompressor);
+  const Problem problem = OverlappingProblem(5, Configuration::kCompressor);
   std::atomic<bool> begun = false, cancel = false;
   SearchOptions options = Within(1e6);
   options.periodic = Endless(begun);
@@ -152,7 +169,7 @@ TEST(StopTest, CancelFromAnotherThreadReachesALeaf) {
 }
 
 TEST(StopTest, TimeLimitReachesALeaf) {
-  const Problem problem = TogetherProblem(5, Configuration::kCompressor);
+  const Problem problem = OverlappingProblem(5, Configuration::kCompressor);
   std::atomic<bool> begun = false;
   SearchOptions options = Within(0.05);
   options.periodic = Endless(begun);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <future>
@@ -147,6 +148,30 @@ TEST(SharedCatalog, WhoKeepsTheFileHoldsUpNoReader) {
   EXPECT_EQ(catalog.Check(), FileCheck::kSound);
   EXPECT_EQ(catalog.With([](catalog::Store& store) { return store.Add(PartOf("x")); }).status,
             catalog::WriteStatus::kDone);
+}
+
+TEST(SharedCatalog, WhoWaitsToWriteHoldsUpNoReader) {
+  const Workbench bench;
+  SharedCatalog catalog(bench.catalog());
+  const auto before = catalog.View().revision;
+  std::vector<std::future<void>> writers;
+  {
+    const OtherProcess other(bench.catalog());
+    std::atomic<bool> over = false;
+    for (int i = 0; i < 12; ++i)
+      writers.push_back(std::async(std::launch::async, [&] {
+        while (!over)
+          EXPECT_THROW(catalog.With([](catalog::Store& store) { return store.Get("none"); }),
+                       catalog::StoreError);
+      }));
+    for (int i = 0; i < 40; ++i) {
+      EXPECT_EQ(catalog.View().revision, before);  // throws after kTurnPatience
+      EXPECT_TRUE(catalog.ViewMeanwhile() || catalog.Head() == before);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    over = true;
+    for (auto& writer : writers) writer.get();
+  }
 }
 
 // What this service wrote is never missing from what it gives later.

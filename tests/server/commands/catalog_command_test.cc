@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
@@ -20,6 +22,36 @@ using testing::StartsWith;
 Json Document(const std::string& text) {
   auto parsed = api::ParseJson(text);
   return std::holds_alternative<Json>(parsed) ? std::get<Json>(parsed) : Json();
+}
+
+// An import changes all of its parts at once; the next one changes them again.
+TEST(CatalogCommand, ARefusedUndoNamesTwentyParts) {
+  const Workbench bench;
+  constexpr const char *kBefore = ",0.00317,", *kAfter = ",0.00417,";
+  for (int i = 0; i < 25; ++i) {
+    Json fitting = NewFitting("f" + std::to_string(i));
+    fitting["part_number"] = "F" + std::to_string(i);
+    fitting["mass_kg"] = 0.00317;
+    ASSERT_EQ(bench.Run("catalog add -", fitting.dump()).status, 0);
+  }
+  std::istringstream exported(bench.Run("catalog export fitting").out);
+  std::string line, first, second;
+  for (std::getline(exported, line), first = second = line + "\n"; std::getline(exported, line);) {
+    const std::size_t at = line.find(kBefore);
+    if (at == std::string::npos) continue;
+    first += line + "\n";
+    second += line.replace(at, std::string(kBefore).size(), kAfter) + "\n";
+  }
+  bench.Write("first.csv", first);
+  bench.Write("second.csv", second);
+  ASSERT_EQ(bench.Run("catalog import fitting second.csv").status, 0);
+  const std::string revision =
+      Document(bench.Run("catalog history --json").out)["revisions"][0]["number"].dump();
+  ASSERT_EQ(bench.Run("catalog import fitting first.csv").status, 0);
+  const auto refused = bench.Run("catalog undo " + revision);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("and 5 more"));
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 21);
 }
 
 TEST(CatalogCommand, ShowsHistoryAndTakesChangesBack) {

@@ -54,6 +54,14 @@ TEST(Init, WithoutAnswersTheDefaultsAreADocument) {
   EXPECT_TRUE(std::holds_alternative<api::DesignRequest>(parsed));
 }
 
+TEST(Init, WhatIsNeitherYesNorNoIsNotTakenForNo) {
+  const Workbench bench;
+  const auto outcome =
+      bench.Run("init my.json", "gripper\nfinger\n4\n8\n1.5\n60\n1\n150 ms\n0,25\n0.5\n2000\n");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("0.5: yes or no is asked here"));
+}
+
 TEST(Init, ABadAnswerIsNamedAndNothingIsWritten) {
   const Workbench bench;
   const auto outcome = bench.Run("init my.json", "gripper\nfinger\nmany\n");

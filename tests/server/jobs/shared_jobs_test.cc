@@ -29,8 +29,7 @@ using testing::HasSubstr;
 api::Parsed<api::Json> Do(const JobOrder& order, const JobControl& control) {
   if (order.request == "fault") throw std::runtime_error("oh");
   if (order.request == "refused") return api::Errors{{"/a", "must be b"}};
-  if (order.request == "away")
-    throw catalog::StoreError("server away", catalog::StoreFault::kStorage);
+  if (order.request == "away") throw catalog::StoreError("server away", catalog::StoreFault::kAway);
   if (order.request == "long")
     while (!control.cancelled()) std::this_thread::sleep_for(1ms);
   if (order.request == "slow") std::this_thread::sleep_for(500ms);

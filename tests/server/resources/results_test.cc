@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include "fmu/unit_file.h"
 #include "tests/server/service.h"
 
 namespace plenum::server {
@@ -66,6 +67,35 @@ TEST_F(ResultsInGzip, OfWhoWaitedAreCompressed) {
   ASSERT_EQ(zipped->status, 200);
   EXPECT_EQ(zipped->get_header_value("Content-Encoding"), "gzip");
   EXPECT_EQ(zipped->get_header_value("Preference-Applied"), "wait=60");
+}
+
+// The contract's way to a unit: of a job, by the rank of a design.
+TEST_F(ResultsInGzip, GiveTheUnitOfADesign) {
+  const std::string path = Done();
+  EXPECT_EQ(Get(path + "/9/fmu", {})->status, 404);
+  EXPECT_EQ(Get(path + "/x/fmu", {})->status, 404);
+  EXPECT_EQ(Get(path + "/1/2/fmu", {})->status, 404);
+  EXPECT_EQ(Get("/v1/designs/none/1/fmu", {})->status, 404);
+  if (!fmu::MakesUnits()) return;
+  const auto unit = Get(path + "/1/fmu", {});
+  ASSERT_EQ(unit->status, 200) << unit->body;
+  EXPECT_EQ(unit->get_header_value("Content-Type"), "application/octet-stream");
+  const Json result = JsonOf(Get(path, {{"Accept-Encoding", ""}})->body)["result"];
+  const Json evaluation = {{"schema", "evaluation/1"},
+                           {"requirements", result["requirements"]},
+                           {"design", result["designs"][0]}};
+  const auto posted = client_.Post("/v1/fmus", evaluation.dump(), "application/json");
+  EXPECT_EQ(unit->body.substr(0, 2), "PK");
+  EXPECT_EQ(unit->body.size(), posted->body.size());
+}
+
+TEST(Results, OfAJobThatWaitsGiveNoUnit) {
+  Service service(OneJobAtATime());
+  httplib::Client client("127.0.0.1", service.port());
+  client.Post("/v1/designs", SlowToProve(60.0).dump(), "application/json");
+  const auto waits = client.Post("/v1/designs", SlowToProve(60.0).dump(), "application/json");
+  ASSERT_EQ(waits->status, 202) << waits->body;
+  EXPECT_EQ(client.Get(waits->get_header_value("Location") + "/1/fmu")->status, 409);
 }
 
 }  // namespace results_test

@@ -123,6 +123,12 @@ void CrashPostgres() {
   TheServer().Begin();
 }
 
+void WhilePostgresIsAway(const std::function<void()>& run) {
+  TheServer().End(SIGQUIT);
+  run();
+  TheServer().Begin();
+}
+
 void CutSessions() {
   TheServer().Sql(
       "SELECT pg_terminate_backend(pid) FROM pg_stat_activity "

@@ -3,6 +3,7 @@
 #ifndef PLENUM_TESTS_SUPPORT_POSTGRES_POSTGRES_SERVER_H_
 #define PLENUM_TESTS_SUPPORT_POSTGRES_POSTGRES_SERVER_H_
 
+#include <functional>
 #include <string>
 
 namespace plenum::test {
@@ -16,6 +17,9 @@ std::string NewDatabase();
 
 // The server dies as if the power went, and starts again.
 void CrashPostgres();
+
+// Runs something while there is no server.
+void WhilePostgresIsAway(const std::function<void()>& run);
 
 // Ends the sessions of all clients of the server, which goes on.
 void CutSessions();

@@ -202,6 +202,23 @@ double ShareUntilNext(const Problem& problem, const std::vector<Fills>& all, con
   return least;
 }
 
+// How long, as a share of the period, the pumps run for these if they hold on: from each begin to
+// the end of its window, unless they begin to fill others before.
+double ShareOfRun(const Problem& problem, const std::vector<Fills>& all, const Fills& one) {
+  const optimizer::Gait& gait = problem.groups[one.group].gait;
+  double sum = 0.0;
+  for (const double begin : one.begins) {
+    double end = begin + gait.inflate_fraction / gait.strokes_per_period;
+    for (const Fills& other : all)
+      for (const double at : other.begins)
+        for (const double next : {at, at + 1.0})
+          if ((&other == &one || OnSamePumps(problem, one, other)) && next > begin + 1e-9)
+            end = std::min(end, next);
+    sum += end - begin;
+  }
+  return sum;
+}
+
 // Most pumps of their own that are on at once, where each is for the whole of its window; looked
 // for at many times of the period.
 int RunningAtOnce(const Problem& problem, const std::vector<Fills>& all) {
@@ -248,7 +265,7 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
   const bool shared = problem.pump_feed == optimizer::PumpFeed::kShared;
   double per_cycle_j = 0.0, coil_w = 0.0, highest_pa = problem.ambient.pressure_pa;
   optimizer::Amounts sum;
-  std::vector<double> slowest_s(candidate.lines.size(), 0.0);
+  std::vector<double> slowest_s(candidate.lines.size(), 0.0), held_open_s = slowest_s;
   for (std::size_t f = 0; f < fills.size(); ++f) {
     const std::size_t g = fills[f].group;
     const optimizer::Gait& gait = problem.groups[g].gait;
@@ -266,8 +283,17 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
     const Filled& filled = Known(f, FillingOf(problem, candidate, g, fills[f].count / times));
     if (filled.inflate_s > turn_s || filled.rise_s > problem.groups[g].rise_time_max_s) return leaf;
     highest_pa = std::max(highest_pa, filled.highest_pa);
-    on_s[shared ? 0 : g] += gait.strokes_per_period * filled.inflate_s;
-    per_cycle_j += times * gait.strokes_per_period * filled.pump_j;
+    const double filling_s = gait.strokes_per_period * filled.inflate_s;
+    const double run_s = optimizer::PumpsHoldOn(problem)
+                             ? ShareOfRun(problem, fills, fills[f]) * period_s
+                             : filling_s;
+    const double operating_pa = line.chamber.operating_pressure_pa;
+    on_s[shared ? 0 : g] += run_s;
+    held_open_s[g] += run_s * fills[f].count / problem.groups[g].count;
+    per_cycle_j +=
+        times * (gait.strokes_per_period * filled.pump_j +
+                 (run_s - filling_s) * candidate.compressor.quantity * pump.curve.voltage_v *
+                     MostCurrent(pump.curve, operating_pa, operating_pa));
     slowest_s[g] = std::max(slowest_s[g], filled.inflate_s);
   }
   for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
@@ -276,7 +302,10 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
     const double vent_s = (1.0 - gait.inflate_fraction) * period_s;
     if (highest_pa > line.source_max_pa) return leaf;
     const bool past_valve = problem.pump_feed == optimizer::PumpFeed::kPerActuator;
-    const double filling_s = past_valve ? 0.0 : gait.strokes_per_period * slowest_s[g];
+    const double filling_s = past_valve ? 0.0
+                             : optimizer::PumpsHoldOn(problem)
+                                 ? held_open_s[g]
+                                 : gait.strokes_per_period * slowest_s[g];
     per_cycle_j += line.coil_power_w * (vent_s + filling_s);
     coil_w += line.coil_power_w;
     sum += line.amounts;
@@ -290,7 +319,7 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
   const double energy_j = problem.actuations * per_cycle_j;
   const bool bears =
       highest_pa <= problem.source_pressure_max_pa &&
-      *std::max_element(on_s.begin(), on_s.end()) <= pump.duty_max * period_s &&
+      *std::max_element(on_s.begin(), on_s.end()) <= pump.duty_max * period_s * (1.0 + 1e-9) &&
       energy_j <= packs * pack.capacity_ah * kJoulePerWattHour * pack.nominal_voltage_v * 0.8 &&
       current_a <= packs * pack.current_max_a && sum.mass_kg <= problem.mass_max_kg &&
       sum.volume_m3 * 1e3 <= problem.volume_max_l && sum.cost_eur <= problem.cost_max_eur;

@@ -22,11 +22,17 @@ double LastStart(const Problem& problem, const Settings& settings, const Assembl
   return settings.source_pressure_pa - FallPa(problem, assembly, problem.actuations - 1.0);
 }
 
+std::vector<double> RestingUnits(const Problem& problem) {
+  std::vector<double> unit_pa;
+  for (const Unit& unit : UnitsOf(problem))
+    unit_pa.push_back(model::RestPa(problem.groups[unit.group].chamber));
+  return unit_pa;
+}
+
 // The state at the start of a cycle that repeats; none where the simulator does not get there.
 std::optional<State> Repeating(const Problem& problem, const Settings& settings,
                                const Assembly& assembly, double rising_m3, const Stop& stop) {
-  State state{settings.source_pressure_pa,
-              std::vector<double>(UnitsOf(problem).size(), problem.ambient.pressure_pa)};
+  State state{settings.source_pressure_pa, RestingUnits(problem)};
   const model::SimulateOptions options = OptionsOf(problem, 1.0 / problem.frequency_hz, stop);
   for (int cycle = 0; cycle < kCyclesMax; ++cycle) {
     model::Rig rig = MakeRig(problem, settings, assembly, state, 1, rising_m3);
@@ -58,12 +64,12 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
     const double full_pa = holds ? chamber.operating_pressure_pa : cycle.filled_pa[g];
     cycle.air_m3 += strokes * problem.groups[g].count *
                     model::StandardVolume(model::Content(chamber, full_pa) -
-                                              model::Content(chamber, problem.ambient.pressure_pa),
+                                              model::Content(chamber, model::RestPa(chamber)),
                                           problem.ambient.temperature_k);
     const double coil_w = problem.groups[g].count * valve.coil_power_w;
     cycle.coil_w += coil_w;
     cycle.steady_j += coil_w * CoilSeconds(problem, g, holds);
-    if (holds && !problem.groups[g].fed_past_valve)
+    if (holds && !problem.groups[g].fed_past_valve && !PumpsHoldOn(problem))
       cycle.inflating_j += strokes * coil_w * cycle.inflate_s[g];
   }
   for (const model::Regulator* regulator : assembly.regulators) {
@@ -101,11 +107,21 @@ bool CarriedOver(const std::vector<Unit>& units, const model::Stroke& stroke) {
   return stroke.command_s == 0.0 && units[stroke.group].begins.front() > 0.0;
 }
 
+// What pumps that hold on take for a stroke once it is filled.
+void HoldOn(const Problem& problem, const Assembly& assembly, const std::vector<Unit>& units,
+            const model::Stroke& stroke, Cycle& cycle) {
+  const Unit& unit = units[stroke.group];
+  const double held_s =
+      RunFor(problem, units, unit, stroke.command_s * problem.frequency_hz) - stroke.to_operating_s;
+  if (!std::isfinite(held_s)) return;  // it is never full
+  cycle.pump_on_s += held_s;
+  cycle.pump_j += held_s * HoldingWatts(problem, assembly, unit.group);
+}
+
 // The last period out of an open tank, its strokes to their ends.
 std::optional<Cycle> SimulatedLast(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop) {
-  const State start{LastStart(problem, settings, assembly),
-                    std::vector<double>(UnitsOf(problem).size(), problem.ambient.pressure_pa)};
+  const State start{LastStart(problem, settings, assembly), RestingUnits(problem)};
   const model::Rig rig = MakeRig(problem, settings, assembly, start, 1, 0.0);
   const double period_s = 1.0 / problem.frequency_hz;
   const model::Response response = model::Simulate(rig, OptionsOf(problem, 2.0 * period_s, stop));
@@ -136,6 +152,9 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
       model::Simulate(emptied, OptionsOf(problem, 2.0 * period_s, stop));
   if (response.status != model::SimulateStatus::kDone) return std::nullopt;
   Cycle cycle = EmptyCycle(problem);
+  cycle.pump_on_s = 0.5 * response.compressor_on_s;
+  cycle.pump_j = 0.5 * response.compressor_energy_j;
+  cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
   const std::vector<Unit> units = UnitsOf(problem);
   for (const model::Stroke& stroke : response.strokes) {
     if (CarriedOver(units, stroke)) continue;
@@ -146,11 +165,9 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
     if (stroke.state != model::ValveState::kInflate || stroke.command_s >= period_s) continue;
     Raise(cycle.rise_s[g], stroke.to_target_s);
     Raise(cycle.inflate_s[g], stroke.to_operating_s);
+    if (assembly.direct() && PumpsHoldOn(problem)) HoldOn(problem, assembly, units, stroke, cycle);
   }
   if (!AddFalls(problem, rig, stop, cycle)) return std::nullopt;
-  cycle.pump_on_s = 0.5 * response.compressor_on_s;
-  cycle.pump_j = 0.5 * response.compressor_energy_j;
-  cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
   if (assembly.direct())
     cycle.node_pa = HighestNode(assembly, rig.groups, FactorOf(problem, assembly.configuration));
   FillOpenOnes(problem, settings, assembly, cycle);
@@ -158,9 +175,9 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   return cycle;
 }
 
-double Target(const Problem& problem, const ActuatorGroup& group, double fraction) {
-  const double ambient_pa = problem.ambient.pressure_pa;
-  return ambient_pa + fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+// So far on the way to the operating pressure, from ambient pressure or from where it rests.
+double Target(const ActuatorGroup& group, double from_pa, double fraction) {
+  return from_pa + fraction * (group.chamber.operating_pressure_pa - from_pa);
 }
 
 }  // namespace
@@ -204,7 +221,8 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop 
     fills_.push_back(model::MakeSeries(elements, factor));
     fall_s_[g] = model::EmptyTime(
         model::MakeSeries(rig.exhaust, factor), rig.chamber, rig.chamber.operating_pressure_pa,
-        Target(problem, problem.groups[g], problem.fall_fraction), temperature_k);
+        Target(problem.groups[g], model::RestPa(rig.chamber), problem.fall_fraction),
+        temperature_k);
     rigs_.push_back(rig);
   }
   if (assembly.pump())
@@ -220,10 +238,11 @@ double QuickCycles::FillFromRegulator(const Settings& settings, int unit, Cycle&
     flow_max = std::min(flow_max, problem_.mains.flow_max_m3_per_s);
   const auto seconds = [&](double to_pa) {
     return model::FillTime(fills_[unit], rig.chamber, settings.source_pressure_pa,
-                           problem_.ambient.pressure_pa, to_pa, problem_.ambient.temperature_k,
+                           model::RestPa(rig.chamber), to_pa, problem_.ambient.temperature_k,
                            flow_max / rig.count);
   };
-  Raise(cycle.rise_s[g], seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction)));
+  Raise(cycle.rise_s[g],
+        seconds(Target(problem_.groups[g], problem_.ambient.pressure_pa, problem_.rise_fraction)));
   const double inflate_s = seconds(rig.chamber.operating_pressure_pa);
   Raise(cycle.inflate_s[g], inflate_s);
   const double open_s = FillWindow(problem_, g);
@@ -260,7 +279,8 @@ double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3
   input.volume_falling_m3 = settings.reservoir_volume_m3.value_or(0.0);
   input.volume_rising_m3 = rising_m3;
   input.from_pa = problem_.ambient.pressure_pa;
-  input.target_pa = Target(problem_, problem_.groups[g], problem_.rise_fraction);
+  input.target_pa =
+      Target(problem_.groups[g], problem_.ambient.pressure_pa, problem_.rise_fraction);
   input.operating_pa = rig.chamber.operating_pressure_pa;
   if (!rig.close_at_operating) input.open_s = FillWindow(problem_, g);
   input.temperature_k = temperature_k;
@@ -295,11 +315,20 @@ double QuickCycles::FillFromTank(double& tank_pa, int unit, Cycle& cycle) const 
                                         problem_.ambient.temperature_k);
   };
   const double inflate_s = seconds(rig.chamber.operating_pressure_pa);
-  Raise(cycle.rise_s[g], seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction)));
+  Raise(cycle.rise_s[g],
+        seconds(Target(problem_.groups[g], problem_.ambient.pressure_pa, problem_.rise_fraction)));
   Raise(cycle.inflate_s[g], inflate_s);
   tank_pa -= StrokeAir(problem_, assembly_, g) /
              model::StandardVolume(TankVolume(assembly_), problem_.ambient.temperature_k);
   return inflate_s;
+}
+
+double QuickCycles::AddHolding(const Unit& unit, double filling_s, Cycle& cycle) const {
+  const double run_s = RunSeconds(problem_, units_, unit);
+  if (std::isfinite(filling_s))
+    cycle.pump_j +=
+        unit.feeds * (run_s - filling_s) * HoldingWatts(problem_, assembly_, unit.group);
+  return run_s;
 }
 
 std::optional<Cycle> QuickCycles::EachAlone(const Settings& settings, double rising_m3) const {
@@ -330,9 +359,10 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   std::vector<double> on_s(problem_.groups.size(), 0.0);  // of each feed of pumps
   for (int u = 0; u < static_cast<int>(units_.size()); ++u) {
     if (assembly_.direct()) {  // what is not over when its turn is over is refused (verify_size.h)
-      on_s[own_pumps ? units_[u].group : 0] +=
-          (direct_fills_ ? *direct_fills_ : own_fills_)
-              .Add(problem_, assembly_, units_[u], fills_[u], cycle);
+      const double filling_s = (direct_fills_ ? *direct_fills_ : own_fills_)
+                                   .Add(problem_, assembly_, units_[u], fills_[u], cycle);
+      double& feed_s = on_s[own_pumps ? units_[u].group : 0];
+      feed_s += PumpsHoldOn(problem_) ? AddHolding(units_[u], filling_s, cycle) : filling_s;
       continue;
     }
     const double over_s = assembly_.pump()    ? FillFromReservoir(settings, rising_m3, u, cycle)

@@ -44,6 +44,8 @@ class QuickCycles {
   double FillFromReservoir(const Settings& settings, double rising_m3, int unit,
                            Cycle& cycle) const;
   double FillFromTank(double& tank_pa, int unit, Cycle& cycle) const;
+  // What pumps that hold on take in a period beside filling the unit; how long they run for it.
+  double AddHolding(const Unit& unit, double filling_s, Cycle& cycle) const;
 
   const Problem& problem_;
   const Assembly& assembly_;

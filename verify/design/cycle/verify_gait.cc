@@ -88,6 +88,24 @@ double UntilNext(const Problem& problem, const std::vector<Unit>& units, const U
   return least / problem.frequency_hz;
 }
 
+double RunFor(const Problem& problem, const std::vector<Unit>& units, const Unit& unit,
+              double begin) {
+  double until = FillWindow(problem, unit.group) * problem.frequency_hz;
+  for (const Unit& other : units) {
+    if (&other != &unit && !OnOneFeed(problem, unit, other)) continue;
+    for (const double next : other.begins)
+      if (&other != &unit || Around(begin, next) > 0.0)
+        until = std::min(until, Around(begin, next));
+  }
+  return until / problem.frequency_hz;
+}
+
+double RunSeconds(const Problem& problem, const std::vector<Unit>& units, const Unit& unit) {
+  double sum_s = 0.0;
+  for (const double begin : unit.begins) sum_s += RunFor(problem, units, unit, begin);
+  return sum_s;
+}
+
 int Feeds(const Problem& problem) {
   int feeds = 0;
   for (const ActuatorGroup& group : problem.groups)
@@ -124,8 +142,15 @@ int MostAtOnce(const Problem& problem, int group) {
 }
 
 double CoilSeconds(const Problem& problem, int group, bool holds) {
-  return Strokes(problem, group) *
-         (holds ? VentWindow(problem, group) : FillWindow(problem, group));
+  const double seconds =
+      Strokes(problem, group) * (holds ? VentWindow(problem, group) : FillWindow(problem, group));
+  if (!PumpsHoldOn(problem) || !holds || problem.groups[group].fed_past_valve) return seconds;
+  const std::vector<Unit> units = UnitsOf(problem);
+  double open_s = 0.0;  // while pumps fill and hold, in the mean over the actuators
+  for (const Unit& unit : units)
+    if (unit.group == group)
+      open_s += RunSeconds(problem, units, unit) * unit.count / problem.groups[group].count;
+  return seconds + open_s;
 }
 
 bool AllAtOnce(const Problem& problem) {

@@ -22,6 +22,12 @@ double FillWindow(const Problem& problem, int group);
 double VentWindow(const Problem& problem, int group);
 double UntilNext(const Problem& problem, const std::vector<Unit>& units, const Unit& unit);
 
+// How long a feed whose pumps hold on runs for a unit, s: from one of its begins to the end of its
+// window or the next begin that the feed serves, and in a period.
+double RunFor(const Problem& problem, const std::vector<Unit>& units, const Unit& unit,
+              double begin);
+double RunSeconds(const Problem& problem, const std::vector<Unit>& units, const Unit& unit);
+
 // Feeds of pumps without a reservoir, and the most of them that may run at one time.
 int Feeds(const Problem& problem);
 int FeedsRunning(const Problem& problem);
@@ -29,7 +35,8 @@ int FeedsRunning(const Problem& problem);
 int TimesBought(const Problem& problem, Family family);
 
 int MostAtOnce(const Problem& problem, int group);
-// Energised in a period, s, beside the time that valves that hold take to inflate.
+// Energised in a period, s, beside the time that valves that hold take to inflate; with the time
+// that pumps which hold on fill and hold, for which such valves stand open.
 double CoilSeconds(const Problem& problem, int group, bool holds);
 
 // Whether several units begin and end as one; whether some do begin together at all, on one feed.

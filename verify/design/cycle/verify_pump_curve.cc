@@ -80,6 +80,12 @@ double FillSecondsMax(const Problem& problem, const Assembly& assembly, int g) {
   return most_s;
 }
 
+double HoldingWatts(const Problem& problem, const Assembly& assembly, int group) {
+  return assembly.compressors *
+         model::ElectricalPower(assembly.pump()->curve,
+                                problem.groups[group].chamber.operating_pressure_pa);
+}
+
 double NodePressure(const Assembly& assembly, const model::Series& fill, double mirror_pa,
                     int count, double chamber_pa) {
   const model::CompressorCurve& curve = assembly.pump()->curve;

@@ -30,6 +30,9 @@ double LeastPumpEnergy(const Problem& problem, const Assembly& assembly, double 
 // Most time that a group may take to fill: its window, or its turn at such pumps.
 double FillSecondsMax(const Problem& problem, const Assembly& assembly, int group);
 
+// What the pumps of one feed take while they hold chambers of the group full, W.
+double HoldingWatts(const Problem& problem, const Assembly& assembly, int group);
+
 // Pressure between pumps and valves at which all pumps of the assembly deliver what `count` lines
 // take to chambers at `chamber_pa`, or the highest that pumps reach where lines take less.
 double NodePressure(const Assembly& assembly, const model::Series& fill, double mirror_pa,

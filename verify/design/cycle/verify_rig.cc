@@ -15,15 +15,18 @@ namespace {
 // thousandth.
 constexpr double kLinear = 1.0 - 1e-9;
 
-// Commands of so many periods from 0 on, at which a window of the period before may be open.
-std::vector<model::ValveCommand> Commands(const Problem& problem, const Unit& unit, bool holds,
+constexpr double kFull = 1.0 - 1e-6;  // of the operating pressure
+
+// Commands of so many periods from 0 on, at which a window of the period before may be open;
+// `done`: what it fills is full, or was never begun, and its valve is shut.
+std::vector<model::ValveCommand> Commands(const Problem& problem, const Unit& unit, bool done,
                                           int periods) {
   const double period_s = 1.0 / problem.frequency_hz;
   const double window_s = FillWindow(problem, unit.group);
   std::vector<model::ValveCommand> commands;
   const double reach_s = unit.begins.back() * period_s + window_s - period_s;
   if (reach_s > 0.0) {
-    commands.push_back({0.0, holds ? model::ValveState::kHold : model::ValveState::kInflate});
+    commands.push_back({0.0, done ? model::ValveState::kHold : model::ValveState::kInflate});
     commands.push_back({reach_s, model::ValveState::kDeflate});
   } else if (unit.begins.front() > 0.0) {
     commands.push_back({0.0, model::ValveState::kDeflate});
@@ -65,8 +68,11 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, cons
   if (!clear(rig.chamber.evacuated))
     outward.push_back(rig.chamber.evacuated ? line.valve->fill : line.valve->exhaust);
   rig.close_at_operating = model::Holds(line.valve->kind);
+  rig.close_at_low = rig.chamber.low_pressure_pa > 0.0;
   rig.initial_pressure_pa = pressure_pa;
-  rig.schedule = Commands(problem, unit, rig.close_at_operating, cycles);
+  const bool midway = pressure_pa > model::RestPa(rig.chamber) &&
+                      pressure_pa < kFull * rig.chamber.operating_pressure_pa;
+  rig.schedule = Commands(problem, unit, rig.close_at_operating && !midway, cycles);
   return rig;
 }
 
@@ -131,7 +137,7 @@ void EmptyBeforeNext(const Problem& problem, const Settings& settings, const Ass
                                                     : settings.source_pressure_pa;
     const double seconds =
         model::EmptyTime(model::MakeSeries(group.exhaust, factor), group.chamber, full_pa,
-                         problem.ambient.pressure_pa, problem.ambient.temperature_k);
+                         model::RestPa(group.chamber), problem.ambient.temperature_k);
     for (model::FlowElement& element : group.exhaust)
       element.sonic_conductance_m3_per_s_pa *=
           std::max(1.0, seconds / (kShare * VentWindow(problem, units[u].group)));

@@ -32,10 +32,13 @@ const lawWord = (law: string): string => law.replace(/_(\d+)$/, ', $1 knots').re
 const numberOf = (id: string): string | null =>
   id.startsWith('number:') ? id.slice('number:'.length).replaceAll('_', ' ') : null;
 
-export const effectName = (id: string, law?: string): string =>
-  numberOf(id) !== null
-    ? `another ${numberOf(id)}`
-    : `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${lawWord(law)})` : ''}`;
+export const effectName = (id: string, law?: string): string => {
+  if (numberOf(id) !== null) return `another ${numberOf(id)}`;
+  // Of one chamber of several: "leak[tip]".
+  const [, alone = id, chamber] = /^(\w+)\[(.*)\]$/.exec(id) ?? [];
+  const words = effectWords[alone] ?? alone.replaceAll('_', ' ');
+  return `${words}${chamber ? ` of ${chamber}` : ''}${law ? ` (${lawWord(law)})` : ''}`;
+};
 
 export const effectNames = (ids: string[], laws: Record<string, string> = {}): string =>
   ids.map((id) => effectName(id, laws[id])).join(' + ') || 'base model';

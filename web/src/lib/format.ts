@@ -52,6 +52,10 @@ export const percent = (share: number | null | undefined, digits = 1): string =>
     ? '–'
     : `${(100 * share).toFixed(digits).replace('-', '−')} %`;
 
+// Of an uncertainty: one as large as the number itself tells nothing.
+export const uncertainty = (share: number | null | undefined, digits = 1): string =>
+  typeof share === 'number' && share >= 1 ? 'not told' : percent(share, digits);
+
 export function signed(value: number, digits = 3): string {
   if (Math.abs(value) < 1e-12) return '±0';
   return `${value > 0 ? '+' : '−'}${significant(Math.abs(value), digits)}`;

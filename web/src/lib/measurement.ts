@@ -15,7 +15,10 @@ export interface Run {
   valve: { t_s: number; state: ValveState; uncertainty_s?: number | string }[];
   t_s: number[];
   pressure_kpa_gauge: (number | null)[];
-  channels?: Record<string, (number | null)[]>;
+  channels?: {
+    source_pressure_kpa_gauge?: (number | null)[];
+    chambers?: Record<string, (number | null)[]>; // of several, but that of pressure_kpa_gauge
+  };
   rig?: Partial<Rig>;
 }
 
@@ -27,6 +30,8 @@ export interface Rig {
   };
   line: { sonic_conductance_dm3_per_s_bar?: number; critical_ratio?: number };
   supply: { kind: 'regulated' | 'measured' | 'compressor' | 'none' };
+  chambers?: { name: string }[]; // in place of the actuator
+  pressure_of?: string; // of which of them pressure_kpa_gauge is; the first
   [more: string]: unknown;
 }
 
@@ -38,6 +43,7 @@ export interface Measurement {
   runs: Run[];
   holdout?: string[];
   assume?: string[]; // what suspect units and exchanged inputs are
+  time_limit_s?: number; // of its diagnosis
 }
 
 export interface Estimate {
@@ -51,6 +57,7 @@ export interface FittedNumber extends Estimate {
   declared: number;
   unit: string;
   specimen?: string | null; // whose it is, where each specimen has its own
+  chamber?: string; // the same of several chambers
 }
 
 export interface ErrorReport {
@@ -76,6 +83,7 @@ export interface RunNumbers {
 
 export interface FittedEffect {
   id: string;
+  chamber?: string; // of several, where the effect is one of a single chamber
   words?: string; // what it does, in units for people
   parameters: Record<string, Estimate | string>;
 }
@@ -112,6 +120,7 @@ export interface WrongNumber {
   deviation_sigma: number | null;
   instead_of: string[];
   specimen?: string | null; // the piece that has the number for itself; null: without a name
+  chamber?: string; // the same of several chambers
   words?: string;
 }
 
@@ -140,6 +149,7 @@ export interface MeasuredNumber {
 // What was written into a part of the catalogue, or why nothing was.
 export interface SavedPart {
   part: string;
+  specimen: string | null; // the piece of its type
   numbers: {
     field: string;
     before: number;
@@ -147,6 +157,10 @@ export interface SavedPart {
     uncertainty: number;
     combined: boolean;
     contradiction: string | null;
+    warning: string | null; // an estimate that was off
+    written: boolean;
+    pieces: number;
+    spread: number | null; // between the pieces, relative
   }[];
   refused: string[];
   revision: { number: number; hash: string } | null;
@@ -173,6 +187,11 @@ export interface Diagnosis {
   measured?: MeasuredNumber[];
   measured_refused?: string[];
   saved_part?: SavedPart;
+  bottles?: {
+    specimen: string | null;
+    rest_volume_ml: number;
+    numbers: { number: string; fitted: number; agrees: boolean }[];
+  }[]; // what other bottles say of the measured numbers
   measurement?: Measurement; // lists of more than 20,000 readings by their hash
   slips?: { what: string; assume: string }[]; // to be settled before an effect is named
   predicts_better?: boolean | null; // runs that no fit saw
@@ -298,6 +317,11 @@ export const shadesOf = (valve: Run['valve'] | undefined, end: number): Shade[] 
       to: all[i + 1]?.t_s ?? end,
       colour: phaseOf[command.state],
     }));
+
+// Seconds that a diagnosis may take where nothing is said, and one that writes into a part: a pump's
+// dozen numbers take a minute and more.
+export const usualLimitS = 60;
+export const partLimitS = 300;
 
 // What the page has open, the file's own text while it is as it was, and what the service finds
 // wrong with it.

@@ -4,6 +4,10 @@ import type { PumpFeed, Requirements } from './types';
 export const feedOf = (requirements: Requirements): PumpFeed =>
   requirements.supply?.pumps ?? 'shared';
 
+// Whether all designs are to be without a reservoir.
+export const onlyDirect = (requirements: Requirements): boolean =>
+  feedOf(requirements) !== 'shared' || requirements.supply?.hold_on === true;
+
 export const actuatorsOf = (requirements: Requirements): number =>
   requirements.actuators.reduce((sum, group) => sum + (group.count ?? 1), 0);
 

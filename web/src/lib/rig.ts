@@ -3,7 +3,7 @@ import { loadPart, numberOf } from './catalogue';
 import { type Change, changed, groupPressures } from './evaluation';
 import { feedOf, feedsOf } from './pumps';
 import type { Design, Effect, Group, Part, Requirements, Response } from './types';
-import { hasTank, isDirect, isEjector } from './vacuum';
+import { goesBelow, hasTank, isDirect, isEjector } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -38,12 +38,42 @@ export function lineOf(design: Design, group: Group) {
   };
 }
 
+interface CurvePoint {
+  pressure_kpa_gauge: number;
+  free_air_l_per_min: number;
+}
+
 // Of an ejector a straight line from its flow without vacuum to its deepest one.
-const curveOf = (part: Part): { pressure_kpa_gauge: number; free_air_l_per_min: number }[] =>
+const curveOf = (part: Part): CurvePoint[] =>
   part.curve ?? [
     { pressure_kpa_gauge: numberOf(part, 'vacuum_max_kpa_gauge')!, free_air_l_per_min: 0 },
     { pressure_kpa_gauge: 0, free_air_l_per_min: numberOf(part, 'suction_flow_l_per_min_anr')! },
   ];
+
+// Behind a check valve that opens at a difference of `crackingKpa` there is so much less of their
+// pressure, or of their vacuum; what it leaves begins at ambient.
+function behind(points: CurvePoint[], crackingKpa: number): CurvePoint[] {
+  const left = ({ pressure_kpa_gauge: p, free_air_l_per_min }: CurvePoint): CurvePoint => ({
+    pressure_kpa_gauge: p < 0 ? p + crackingKpa : p - crackingKpa,
+    free_air_l_per_min,
+  });
+  const beyond = ({ pressure_kpa_gauge: p }: CurvePoint) => Math.abs(p) >= crackingKpa;
+  return points.flatMap((point, i) => {
+    if (beyond(point)) return [left(point)];
+    const next = [points[i - 1], points[i + 1]].find((other) => other && beyond(other));
+    if (!next) return [];
+    const share =
+      (crackingKpa - Math.abs(point.pressure_kpa_gauge)) /
+      Math.abs(next.pressure_kpa_gauge - point.pressure_kpa_gauge);
+    const flow = point.free_air_l_per_min;
+    return [
+      {
+        pressure_kpa_gauge: 0,
+        free_air_l_per_min: flow + share * (next.free_air_l_per_min - flow),
+      },
+    ];
+  });
+}
 
 // What feeds all groups, or one behind a regulator or on pumps of its own, by its place.
 function sourceOf(
@@ -58,11 +88,16 @@ function sourceOf(
   if (pump && !hasTank(design.configuration)) {
     // Pumps take in volume: the table is of 100 kPa, and holds at the same ratios of pressure.
     const share = (requirements.ambient?.pressure_kpa_abs ?? 100) / 100;
-    const pumps = {
-      curve: curveOf(parts.get(pump.id)!).map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({
+    const valve = rowOf(design, 'check_valve');
+    const cracking = (valve && numberOf(parts.get(valve.id)!, 'cracking_pressure_kpa_gauge')) ?? 0;
+    const alone = curveOf(parts.get(pump.id)!).map(
+      ({ pressure_kpa_gauge, free_air_l_per_min }) => ({
         pressure_kpa_gauge: share * pressure_kpa_gauge,
         free_air_l_per_min: share * free_air_l_per_min,
-      })),
+      }),
+    );
+    const pumps = {
+      curve: cracking > 0 ? behind(alone, cracking) : alone,
       count: pump.quantity / feedsOf(requirements),
     };
     const ejector = isEjector(design.configuration);
@@ -152,6 +187,16 @@ export const chamberOf = (group: Group) => ({
   operating_pressure_kpa_gauge: group.operating_pressure_kpa_gauge,
 });
 
+// Where an actuator rests below ambient, and what it empties into; its valve closes there.
+export const railOf = (group: Group, { supply }: Requirements) =>
+  goesBelow(group)
+    ? {
+        low_pressure_kpa_gauge: group.low_pressure_kpa_gauge,
+        exhaust_pressure_kpa_gauge: supply?.vacuum?.mains?.pressure_kpa_gauge,
+        close_at_low_pressure: true,
+      }
+    : {};
+
 // One request, or where each group has a regulator or pumps of its own one of each.
 export function simulationsOf(
   design: Design,
@@ -213,6 +258,7 @@ function simulationOf(
         count: feedOf(requirements) === 'per_actuator' ? 1 : count,
         ...chamberOf(group),
         close_at_operating_pressure: valve?.function !== '3/2',
+        ...railOf(group, requirements),
         line: lineOf(design, group),
         valve: schedule(requirements, group, phase, cycles),
       };

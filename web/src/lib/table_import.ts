@@ -92,8 +92,41 @@ export function splitTarget(target: string): { column: string; unit: string } {
 
 export const plainColumns = ['id', 'manufacturer', 'part_number', 'notes', 'series', 'orderable'];
 
+// What price lists print in place of a column of the catalogue, and the column that it goes into.
+const printed: Record<string, string> = {
+  body_size_mm: 'body_volume_ml',
+  body_cylinder_mm: 'body_volume_ml',
+  body_length_mm: 'body_volume_ml',
+  body_width_mm: 'body_volume_ml',
+  body_height_mm: 'body_volume_ml',
+  body_depth_mm: 'body_volume_ml',
+  body_diameter_mm: 'body_volume_ml',
+  free_flow_l_per_min: 'curve',
+  current_a: 'curve',
+  c_rate: 'current_max_a',
+  offer_price: 'offers',
+  offer_currency: 'offers',
+  offer_pack: 'offers',
+  offer_supplier: 'offers',
+  offer_date: 'offers',
+  offer_link: 'offers',
+};
+
+export function printedColumnsOf(meta: Family): string[] {
+  const has = (name: string) =>
+    name === 'offers' ||
+    (name === 'curve' ? meta.has_curve : meta.numbers.some((field) => field.name === name));
+  return Object.keys(printed).filter((name) => has(printed[name]!));
+}
+
+// Whether the cells of a column are numbers with a unit.
+export const takesUnit = (meta: Family, column: string): boolean =>
+  meta.numbers.some((field) => field.name === column) ||
+  column === 'offer_price' ||
+  (column in printed && !column.startsWith('offer_') && column !== 'c_rate');
+
 export function columnsOf(meta: Family): string[] {
-  const listed = ['aliases', 'offers', 'documents'];
+  const listed = [...printedColumnsOf(meta), 'aliases', 'offers', 'documents'];
   const fields = [...meta.numbers, ...meta.texts].map((field) => field.name);
   return [...plainColumns, ...fields, ...(meta.has_curve ? ['curve'] : []), ...listed];
 }
@@ -102,7 +135,9 @@ export function columnsOf(meta: Family): string[] {
 export function missingColumns(meta: Family, understood: Understood): string[] {
   const given = new Set(
     understood.columns.flatMap((column) =>
-      column.targets.map((target) => splitTarget(target).column),
+      column.targets
+        .map((target) => splitTarget(target).column)
+        .flatMap((name) => [name, printed[name] ?? name]),
     ),
   );
   const needed = [...meta.numbers, ...meta.texts].filter((field) => field.required);

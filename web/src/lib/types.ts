@@ -12,6 +12,7 @@ export interface Group {
   pouch?: Record<string, unknown>;
   body?: Record<string, unknown>;
   operating_pressure_kpa_gauge: number;
+  low_pressure_kpa_gauge?: number | null;
   tube_length_m: number;
   fittings_per_line?: number;
   rise_time_s_max?: number | null;
@@ -61,6 +62,7 @@ export interface Requirements {
     configurations?: Configuration[];
     mains?: Mains;
     pumps?: PumpFeed;
+    hold_on?: boolean; // pumps without a reservoir run on while actuators hold
     regulation?: Regulation;
     vacuum?: {
       configurations?: string[];
@@ -270,6 +272,7 @@ export interface ProtocolTest {
   steps: string[];
   equipment: {
     bottle_l: number;
+    check_bottle_l: number; // of another bottle, for one run
     source_pressure_kpa_gauge: number | null;
     sampling_hz: number;
     duration_s: number;

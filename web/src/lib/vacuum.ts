@@ -1,9 +1,14 @@
 // Actuators that are evacuated, and the designs that do it.
+import { onlyDirect } from './pumps';
 import type { Configuration, Group, Requirements } from './types';
 
 export const isEvacuated = (group: Group): boolean =>
   Number(group.operating_pressure_kpa_gauge) < 0;
 export const areEvacuated = ({ actuators }: Requirements): boolean => actuators.some(isEvacuated);
+
+// Under pressure, and pulled below ambient by the wall's vacuum.
+export const goesBelow = (group: Group): boolean => Number(group.low_pressure_kpa_gauge) < 0;
+export const haveVacuumRail = ({ actuators }: Requirements): boolean => actuators.some(goesBelow);
 
 // Driven by compressed air from the wall.
 export const isEjector = (configuration: Configuration): boolean =>
@@ -32,12 +37,12 @@ export function kindsAsked(requirements: Requirements): Configuration[] {
   const { supply } = requirements;
   if (!areEvacuated(requirements))
     return supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
-  const shared = (supply?.pumps ?? 'shared') === 'shared';
+  const direct = onlyDirect(requirements);
   const sources = vacuumSources(requirements);
-  const pumps: Configuration[] = shared
-    ? ['vacuum_pump', 'direct_vacuum_pump']
-    : ['direct_vacuum_pump'];
-  const ejectors: Configuration[] = shared ? ['ejector', 'direct_ejector'] : ['direct_ejector'];
+  const pumps: Configuration[] = direct
+    ? ['direct_vacuum_pump']
+    : ['vacuum_pump', 'direct_vacuum_pump'];
+  const ejectors: Configuration[] = direct ? ['direct_ejector'] : ['ejector', 'direct_ejector'];
   return [
     ...(sources.includes('pump') ? pumps : []),
     ...(sources.includes('ejector') ? ejectors : []),

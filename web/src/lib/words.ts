@@ -15,6 +15,7 @@ const leftOutWhy: Record<string, string> = {
   require: 'beside those required',
   orderable: 'that cannot be ordered',
   vacuum: 'not rated for vacuum',
+  holding: 'that cannot close both ways',
   prices: 'without a price',
 };
 
@@ -63,6 +64,9 @@ export function proofInWords(answer: Answer): string {
 // The name of a family of parts for people.
 export const familyWord = (family: string): string =>
   family === 'co2' ? 'CO₂' : family.replaceAll('_', ' ');
+
+// A run's name in a title; a recording without a column of runs is one run, called "run".
+export const runTitle = (id: string): string => (id === 'run' ? 'The run' : `Run ${id}`);
 
 // A note of a document, which may be of any form.
 export const noteText = (note: unknown): string =>

@@ -19,7 +19,7 @@ import { Sensitivities } from './sensitivities';
 import { Strokes } from './strokes';
 import { WhatIf } from './what_if';
 import { Estimates, Facts, MarginsPanel, PartsPanel } from './design_panels';
-import { areEvacuated } from '../lib/vacuum';
+import { areEvacuated, haveVacuumRail } from '../lib/vacuum';
 
 export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; rank: number }) {
   const design = answer.designs.find((d) => d.rank === rank);
@@ -111,7 +111,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         />
       )}
       <Sensitivities design={design} requirements={answer.requirements} />
-      {!areEvacuated(answer.requirements) && (
+      {!areEvacuated(answer.requirements) && !haveVacuumRail(answer.requirements) && (
         <div class={`plots ${design.configuration === 'compressor' ? 'three' : 'even'}`}>
           <Maps design={design} requirements={answer.requirements} parts={parts.value} />
         </div>

@@ -29,6 +29,7 @@ const familyColour: Record<string, string> = {
   fitting: '--c5',
   tubing: '--c6',
   manifold: '--c5',
+  check_valve: '--c5',
 };
 
 const colourOf = ({ family }: { family: string }) => `var(${familyColour[family] ?? '--c6'})`;

@@ -4,7 +4,7 @@ import { significant } from '../lib/format';
 import { effectName, inWords } from '../lib/effect_words';
 import { type Diagnosis, type Measurement, type Shade } from '../lib/measurement';
 import { pressuresShown, toShown, unitOf } from '../lib/units';
-import { verdictWord } from '../lib/words';
+import { runTitle, verdictWord } from '../lib/words';
 import { Lines } from '../plots/lines';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
@@ -110,7 +110,7 @@ function Curves({ d }: { d: Diagnosis }) {
     <Panel title="Measured against model" aside={<RunPicker ids={ids} value={series.run} />}>
       <Lines
         {...plot}
-        title={`Run ${series.run}${series.held_out ? ', held out of all fits' : ''}`}
+        title={`${runTitle(series.run)}${series.held_out ? ', held out of all fits' : ''}`}
         yLabel={`pressure, ${unitOf('pressure')}`}
         height={280}
         lines={[

@@ -76,10 +76,11 @@ function WrongNumbers({ numbers }: { numbers: WrongNumber[] }) {
           const field = n.unit === '1' ? n.name : `${n.name}_${n.unit}`;
           const { label, unit } = fieldName(field);
           const kind = fieldKind(field);
+          const piece = n.specimen ?? n.chamber;
           return (
-            <tr key={n.name + (n.specimen ?? '')}>
+            <tr key={n.name + (piece ?? '')}>
               <td>
-                {label} {n.specimen && `of ${n.specimen} `}
+                {label} {piece && `of ${piece} `}
                 <small class="muted">{unit}</small>
               </td>
               <td class="num">{significant(toShown(kind, n.declared))}</td>
@@ -144,9 +145,10 @@ export function Effects({ d }: { d: Diagnosis }) {
         </p>
       )}
       {d.effects.map((effect) => (
-        <div key={effect.id}>
+        <div key={effect.id + (effect.chamber ?? '')}>
           <h3>
             {effectName(effect.id)} <code>{effect.id}</code>
+            {effect.chamber && ` of ${effect.chamber}`}
           </h3>
           {effect.words && <p>{sentence(effect.words)}</p>}
           <EstimateTable name={effect.id} of="parameter" rows={Object.entries(effect.parameters)} />

@@ -115,9 +115,13 @@ export function Phases({ d }: { d: Diagnosis }) {
 // Whether it is the set of effects that the verdict takes.
 function isChosen(d: Diagnosis, c: Diagnosis['candidates'][number]): boolean {
   const key = (id: string, law: unknown) => `${id} ${law ?? ''}`;
-  const numbers = (d.numbers ?? []).map((n) => key(`number:${n.name}`, ''));
-  const effects = d.effects.map((effect) => key(effect.id, effect.parameters.law));
-  const taken = [...effects, ...numbers].sort();
+  const numbers = (d.numbers ?? []).map(({ name, chamber }) =>
+    key(`number:${chamber ? `${name}[${chamber}]` : name}`, ''),
+  );
+  const effects = d.effects.map(({ id, chamber, parameters }) =>
+    key(chamber ? `${id}[${chamber}]` : id, parameters.law),
+  );
+  const taken = [...new Set([...effects, ...numbers])].sort();
   const own = c.effects.map((id) => key(id, c.laws[id])).sort();
   return d.verdict !== 'undecided' && d.tied.length === 0 && taken.join() === own.join();
 }

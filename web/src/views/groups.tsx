@@ -1,7 +1,7 @@
 // The groups of equal actuators, one block of fields each.
 import { edit, errorAt, numbers, requirements } from '../lib/requirements';
 import type { Group } from '../lib/types';
-import { isEvacuated } from '../lib/vacuum';
+import { areEvacuated, haveVacuumRail, isEvacuated } from '../lib/vacuum';
 import { TextField } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 import { GaitFields } from './gait_fields';
@@ -18,6 +18,18 @@ const blank = (n: number): Group => ({
   rise_time_s_max: 0.5,
   fall_time_s_max: 0.6,
 });
+
+// Actuators under pressure go below ambient by a vacuum from the wall, and by nothing else.
+function fitVacuum() {
+  const { supply } = requirements.value;
+  if (areEvacuated(requirements.value)) return;
+  if (!haveVacuumRail(requirements.value)) edit(['supply', 'vacuum'], undefined);
+  else if (!supply?.vacuum)
+    edit(['supply', 'vacuum'], {
+      configurations: ['mains'],
+      mains: { pressure_kpa_gauge: -80 },
+    });
+}
 
 export function Groups() {
   const groups = requirements.value.actuators;
@@ -62,6 +74,18 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           range={[-99, 1e4]}
           hint="below 0: evacuated"
         />
+        {(!evacuated || group.low_pressure_kpa_gauge !== undefined) && (
+          <RequirementField
+            label="Low pressure"
+            placeholder="0"
+            hint="below 0: pulled there by a vacuum"
+            kind="pressure"
+            optional
+            path={path('low_pressure_kpa_gauge')}
+            range={[-99, 0]}
+            then={fitVacuum}
+          />
+        )}
         {(evacuated || group.pressure_kpa_gauge_min !== undefined) && (
           <RequirementField
             label="Pressure, at least"

@@ -1,6 +1,6 @@
 // What the service understood of a table, to be put right by hand.
 import type { Answers, ColumnRead, Question, Understood } from '../lib/table_import';
-import { columnsOf, missingColumns, splitTarget } from '../lib/table_import';
+import { columnsOf, missingColumns, splitTarget, takesUnit } from '../lib/table_import';
 import type { Family } from '../lib/types';
 import { AnswerButtons, UnitInput } from '../ui/column_answers';
 import { Notice, Select } from '../ui/controls';
@@ -51,7 +51,7 @@ function ColumnRow(props: {
       .map((answer) => ({ value: answer, label: answer })),
     ...columnsOf(props.meta).map((name) => ({ value: name, label: name })),
   ];
-  const isNumber = props.meta.numbers.some((one) => one.name === field);
+  const isNumber = takesUnit(props.meta, field);
   return (
     <tr>
       <th scope="row">{column.heading || `column ${column.key.slice(1)}`}</th>
@@ -135,7 +135,9 @@ export function ForAllRows(props: {
   if (missing.length === 0) return null;
   return (
     <fieldset class="for-all">
-      <legend>In no column: the same for all rows</legend>
+      <legend>
+        In no column: the same for all rows, or empty where a law of the catalogue gives it
+      </legend>
       {missing.map((name) => (
         <label key={name}>
           {name}

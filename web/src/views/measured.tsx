@@ -17,6 +17,7 @@ import {
   readJson,
   type Rig,
   shadesOf,
+  usualLimitS,
   withRig,
   withRuns,
 } from '../lib/measurement';
@@ -32,8 +33,9 @@ import {
 import { route, setQuery } from '../lib/route';
 import type { Doing, Job } from '../lib/types';
 import { pressuresShown, unitOf } from '../lib/units';
+import { runTitle } from '../lib/words';
 import { Lines } from '../plots/lines';
-import { Notice, Panel } from '../ui/controls';
+import { Notice, NumberField, Panel } from '../ui/controls';
 import { ErrorList, FilePicker } from '../ui/files';
 import { focusFirstWrong } from '../ui/refused';
 import { AgainButton, Bar, CancelButton } from '../ui/job';
@@ -153,6 +155,11 @@ export function MeasuredView() {
       page.current!,
       measurementErrors.value.map((error) => error.pointer),
     );
+  const limit = (seconds: number | null) => {
+    const { time_limit_s: _, ...rest } = data!;
+    measurement.value = seconds === null ? rest : { ...rest, time_limit_s: seconds };
+    originalText.value = null;
+  };
   const diagnose = async (text = originalText.value ?? JSON.stringify(data)) => {
     measurementErrors.value = [];
     problem.value = '';
@@ -241,6 +248,15 @@ export function MeasuredView() {
       {data && !result && <Preview data={data} />}
       {data && !result && !isRunning && !recordings.value.some(isOpen) && (
         <div class="toolbar end">
+          <NumberField
+            label="Time limit"
+            unit="s"
+            value={data.time_limit_s ?? null}
+            usual={usualLimitS}
+            range={[0.01, 3600]}
+            onChange={limit}
+            onText={() => undefined}
+          />
           <button
             type="button"
             class="primary"
@@ -322,13 +338,15 @@ function Preview({ data }: { data: Measurement }) {
   const ids = data.runs.map((run) => run.id);
   const run = data.runs.find((r) => r.id === pickRun(ids))!;
   const source = run.channels?.source_pressure_kpa_gauge;
+  const chambers = Object.entries(run.channels?.chambers ?? {});
+  const { rig } = data;
   const marks = useValveMarks(run);
   const isUnmarked = recordings.value.some(({ questions }) =>
     questions.some((one) => one.option === 'valve' && one.heading === run.id),
   );
   return (
     <Panel
-      title={`Run ${run.id}${run.blocked ? ', blocked' : ''}`}
+      title={`${runTitle(run.id)}${run.blocked ? ', blocked' : ''}`}
       aside={<RunPicker ids={ids} value={run.id} />}
     >
       <Lines
@@ -340,7 +358,16 @@ function Preview({ data }: { data: Measurement }) {
         bands={shadesOf(run.valve, run.t_s[run.t_s.length - 1] ?? 0)}
         onPick={isUnmarked ? marks.mark : undefined}
         lines={[
-          { label: 'actuator', values: pressuresShown(run.pressure_kpa_gauge), colour: '--c1' },
+          {
+            label: rig.pressure_of ?? rig.chambers?.[0]?.name ?? 'actuator',
+            values: pressuresShown(run.pressure_kpa_gauge),
+            colour: '--c1',
+          },
+          ...chambers.map(([label, values], i) => ({
+            label,
+            values: pressuresShown(values),
+            colour: `--c${2 + (i % 4)}`,
+          })),
           ...(source ? [{ label: 'source', values: pressuresShown(source), colour: '--c6' }] : []),
         ]}
       />

@@ -15,8 +15,16 @@ import { documentsText, offersText, readAliases, readDocuments, readOffers } fro
 
 type Draft = Record<string, unknown>;
 
-// What a conductance may be given as, too.
-const printed = 'or as printed: Qn 100 L/min at 6 to 5 bar, Cv 0.05, Kv 0.04, orifice 1.2 mm';
+// What a number may be given as, too.
+const printedAs = (name: string): { hint?: string } => {
+  if (name.startsWith('sonic_conductance'))
+    return { hint: 'or as printed: Qn 100 L/min at 6 to 5 bar, Cv 0.05, Kv 0.04, orifice 1.2 mm' };
+  if (name === 'body_volume_ml') return { hint: 'or its size: 70 x 30 x 50 mm, ⌀18.5 x 65 mm' };
+  return name === 'current_max_a' ? { hint: 'or the C-rate: 25C' } : {};
+};
+
+// "free flow 12 L/min, 0.8 A" in place of points.
+const isFreeFlow = (text: string): boolean => text.trim().startsWith('free flow');
 
 // Fields of several lines: what is wrong with them is said above the form.
 const inLines = ['/curve', '/aliases', '/offers', '/documents', '/orderable'];
@@ -90,7 +98,8 @@ export function PartForm(props: {
 
   // Changed numbers get the source named here, the others keep theirs.
   const documentOf = (): Draft | null => {
-    const points = meta.has_curve ? readCurve(curve.value) : undefined;
+    const freeFlow = meta.has_curve && isFreeFlow(curve.value);
+    const points = meta.has_curve && !freeFlow ? readCurve(curve.value) : undefined;
     if (points === null) {
       errors.value = [
         { pointer: '/curve', detail: 'each line needs two or three numbers: kPa gauge, L/min, A' },
@@ -117,11 +126,13 @@ export function PartForm(props: {
       if (points.some((p) => p.current_a !== undefined))
         provenance.current = (same && part.provenance.current) || measured;
     }
+    if (freeFlow) provenance.free_air = provenance.current = mine;
     const { origin: _, ...rest } = now;
     return {
       ...rest,
       family: meta.name,
       ...(points && points.length > 0 && { curve: points }),
+      ...(freeFlow && { curve: curve.value.trim() }),
       aliases: readAliases(aliases.value),
       offers: readOffers(offers.value),
       documents: readDocuments(documents.value),
@@ -254,7 +265,7 @@ export function PartForm(props: {
                 kind={fieldKind(field.name)}
                 value={now[field.name] as number | string | undefined}
                 range={[field.min, field.max]}
-                {...(field.name.startsWith('sonic_conductance') && { hint: printed })}
+                {...printedAs(field.name)}
                 {...(!field.required && { optional: true, placeholder: '' })}
                 takesUnits={namesUnit(field.name)}
                 onText={(v) => set(field.name, v)}
@@ -271,6 +282,7 @@ export function PartForm(props: {
             '/curve',
             curve,
             6,
+            'or what the sheet prints: free flow 12 L/min, 0.8 A',
           )}
         {lines(
           'Offers, net of tax: supplier | price | currency | pieces in the pack | date | link; one a line. The newest makes the price.',

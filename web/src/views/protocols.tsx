@@ -5,7 +5,7 @@ import { useEffect } from 'preact/hooks';
 
 import { ask, asProblem } from '../lib/api';
 import { partPath } from '../lib/catalogue';
-import { fieldName, percent, significant } from '../lib/format';
+import { fieldName, uncertainty, significant } from '../lib/format';
 import { route } from '../lib/route';
 import type { Protocol, ProtocolTest } from '../lib/types';
 import { Notice, NumberField } from '../ui/controls';
@@ -27,6 +27,7 @@ const sensorFields = [
   { name: 'sensor_resolution_kpa', label: 'Step of its readings', unit: 'kPa', usual: 0.1 },
   { name: 'sampling_hz', label: 'Readings a second', unit: 'Hz', usual: 100 },
   { name: 'bottle_l', label: 'Bottle', unit: 'L' },
+  { name: 'bottle_uncertainty', label: 'Uncertainty of its volume (weighed: 0.002)', usual: 0.02 },
 ];
 
 function Tests({ id }: { id: string }) {
@@ -87,7 +88,8 @@ function Test({ part, test }: { part: string; test: ProtocolTest }) {
           {equipment.source_pressure_kpa_gauge !== null &&
             `, source at ${significant(equipment.source_pressure_kpa_gauge)} kPa gauge`}
           , {significant(equipment.sampling_hz)} readings a second for{' '}
-          {significant(equipment.duration_s)} s, {equipment.repeats} times.
+          {significant(equipment.duration_s)} s, {equipment.repeats} times; one check with{' '}
+          {significant(equipment.check_bottle_l)} L.
         </p>
       )}
       <ol>
@@ -112,9 +114,9 @@ function Test({ part, test }: { part: string; test: ProtocolTest }) {
               {row.pressure_kpa_gauge !== undefined &&
                 ` at ${significant(row.pressure_kpa_gauge)} kPa`}
             </th>
-            <td class="num">{percent(row.uncertainty, 2)}</td>
-            <td class="num">{percent(row.from_noise, 2)}</td>
-            <td class="num">{percent(row.from_rig, 2)}</td>
+            <td class="num">{uncertainty(row.uncertainty, 2)}</td>
+            <td class="num">{uncertainty(row.from_noise, 2)}</td>
+            <td class="num">{uncertainty(row.from_rig, 2)}</td>
             <td>{row.told ? row.how : `${row.how}; not told`}</td>
           </tr>
         ))}

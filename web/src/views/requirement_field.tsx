@@ -9,9 +9,10 @@ import { NumberField, type NumberFieldProps } from '../ui/controls';
 export function RequirementField(
   props: Omit<NumberFieldProps, 'value' | 'onChange' | 'onText' | 'error' | 'pointer'> & {
     path: (string | number)[];
+    then?: () => void; // after an edit
   },
 ) {
-  const { path, ...rest } = props;
+  const { path, then, ...rest } = props;
   const pointer = `/${path.join('/')}`;
   const kind = props.kind ?? 'plain';
   const row = understoodAt(pointer);
@@ -28,10 +29,14 @@ export function RequirementField(
       takesUnits={namesUnit(String(path.at(-1)))}
       {...(read !== undefined && { read })}
       {...(warning !== undefined && { warning })}
-      onText={(text) => edit(path, text)}
-      onChange={(value) =>
-        edit(path, value ?? (props.optional || props.usual !== undefined ? undefined : null))
-      }
+      onText={(text) => {
+        edit(path, text);
+        then?.();
+      }}
+      onChange={(value) => {
+        edit(path, value ?? (props.optional || props.usual !== undefined ? undefined : null));
+        then?.();
+      }}
     />
   );
 }

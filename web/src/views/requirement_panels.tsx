@@ -31,12 +31,22 @@ export function Supply() {
     edit(['supply', 'configurations'], next);
     if (name === 'mains') giveWall(on);
     if (!next.some(hasTank)) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
-    if (name === 'direct_pump' && !on) edit(['supply', 'pumps'], undefined);
+    if (name === 'direct_pump' && !on) {
+      edit(['supply', 'pumps'], undefined);
+      edit(['supply', 'hold_on'], undefined);
+    }
+  };
+  const leaveDirect = () => {
+    if (areEvacuated(numbers.value)) return;
+    edit(['supply', 'configurations'], ['direct_pump']);
+    edit(['supply', 'mains'], undefined);
+    edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
   };
   const wrong =
     errorAt('/supply/configurations') ??
     errorAt('/supply/mains') ??
     errorAt('/supply/pumps') ??
+    errorAt('/supply/hold_on') ??
     errorAt('/supply/vacuum');
   const vacuum = areEvacuated(numbers.value);
   const evacuating = vacuumSources(requirements.value);
@@ -106,23 +116,29 @@ export function Supply() {
       )}
       {wrong && <p class="error">{wrong}</p>}
       {(vacuum || chosen.includes('direct_pump')) && (
-        <Segmented<PumpFeed>
-          label="Pumps without a reservoir"
-          options={[
-            { value: 'shared', label: 'for all' },
-            { value: 'per_group', label: 'for each group' },
-            { value: 'per_actuator', label: 'for each actuator' },
-          ]}
-          value={supply.pumps ?? 'shared'}
-          onChange={(pumps) => {
-            edit(['supply', 'pumps'], pumps === 'shared' ? undefined : pumps);
-            if (pumps !== 'shared' && !vacuum) {
-              edit(['supply', 'configurations'], ['direct_pump']);
-              edit(['supply', 'mains'], undefined);
-              edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
-            }
-          }}
-        />
+        <>
+          <Segmented<PumpFeed>
+            label="Pumps without a reservoir"
+            options={[
+              { value: 'shared', label: 'for all' },
+              { value: 'per_group', label: 'for each group' },
+              { value: 'per_actuator', label: 'for each actuator' },
+            ]}
+            value={supply.pumps ?? 'shared'}
+            onChange={(pumps) => {
+              edit(['supply', 'pumps'], pumps === 'shared' ? undefined : pumps);
+              if (pumps !== 'shared') leaveDirect();
+            }}
+          />
+          <Check
+            label="Pumps run on while actuators hold"
+            checked={supply.hold_on ?? false}
+            onChange={(on) => {
+              edit(['supply', 'hold_on'], on || undefined);
+              if (on) leaveDirect();
+            }}
+          />
+        </>
       )}
       <Segmented<PowerKind>
         label="Power from"
@@ -193,7 +209,7 @@ export function Supply() {
             />
           </>
         )}
-        {vacuum && supply.vacuum?.mains && (
+        {supply.vacuum?.mains && (
           <>
             <RequirementField
               label="Vacuum of the wall"

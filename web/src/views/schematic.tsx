@@ -67,7 +67,9 @@ export function Schematic({
   const each = feedOf(requirements) === 'per_actuator' ? 'to each actuator' : 'to each group';
   const bus = groupPressures ? at.ownBus : ownPumps ? at.source : at.bus;
   const battery = rowOf(design, 'battery');
-  const joints = design.parts.filter(({ family }) => family === 'manifold');
+  const joints = design.parts.filter(
+    ({ family }) => family === 'manifold' || family === 'check_valve',
+  );
   const setting = `${shown('pressure', settings.source_pressure_kpa_gauge)} ${unitOf('pressure')}`;
   const isTank = hasTank(configuration);
   return (

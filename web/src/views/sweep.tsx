@@ -232,8 +232,10 @@ function Rows({ table }: { table: SweepTable }) {
     <Table
       label="Answers"
       heads={[
-        'patch',
-        ...table.varied.map((pointer) => number(pointer)),
+        'variant',
+        ...table.varied.map((pointer) =>
+          number(placeInWords(pointer, requirements.value.actuators)),
+        ),
         'result',
         number('objective'),
         number('mass', 'kg'),

@@ -57,6 +57,7 @@ optimizer::ActuatorGroup ReadGroup(Reader& reader, const model::Ambient& ambient
   optimizer::ActuatorGroup group;
   group.count = reader.Integer("count", 1, kCountMax, 1);
   group.chamber = ReadChamber(reader, ambient, Vacuum::kAllowed, &rod_side, kOperatingGaugeMaxKpa);
+  ReadLowPressure(reader, ambient, rod_side.has_value(), group.chamber);
   group.tube_length_m = reader.Number("tube_length_m", TubeLengthRange());
   group.fittings_per_line = reader.Integer("fittings_per_line", 0, kFittingsMax, 2);
   group.rise_time_max_s =

@@ -73,15 +73,18 @@ void CheckGaits(Reader& request, optimizer::Problem& problem) {
   // What was not asked for by name is no choice.
   problem.configurations.erase(optimizer::Configuration::kDirectVacuumPump);
   problem.configurations.erase(optimizer::Configuration::kDirectEjector);
-  if (!problem.configurations.contains(optimizer::Configuration::kDirectPump)) return;
+  if (!problem.configurations.contains(optimizer::Configuration::kDirectPump) &&
+      !optimizer::PumpsHoldOn(problem))
+    return;
+  const std::string with = optimizer::PumpsHoldOn(problem) ? "with supply.hold_on"
+                                                           : "with the configuration direct_pump";
   if (AnyPhase(problem))
     request.FailAt("actuators",
-                   "must begin at different times with the configuration direct_pump, whose pumps "
-                   "fill one after another: two have the same phase");
+                   "must begin at different times " + with +
+                       ", whose pumps fill one after another: two have the same phase");
   else
     request.FailAt("duty/simultaneous",
-                   "must be false with the configuration direct_pump, whose pumps fill one group "
-                   "after another");
+                   "must be false " + with + ", whose pumps fill one group after another");
 }
 
 std::string WhyGaitNotGuaranteed(const optimizer::Problem& problem) {

@@ -4,7 +4,11 @@
 #include <set>
 
 #include "api/design/read/design_reader.h"
+#include "api/json/remarks.h"
 #include "api/json/words.h"
+#include "optimizer/problem/gait.h"
+#include "optimizer/problem/joints.h"
+#include "optimizer/problem/pump_feed.h"
 
 namespace plenum::api {
 namespace {
@@ -17,18 +21,31 @@ bool Says(const catalog::Part& part, const char* field, std::string_view value) 
   return found != part.texts.end() && found->second.value == value;
 }
 
-// Vacuum pumps are asked for by what they evacuate, with a reservoir and without.
-void KeepDirect(Reader& supply, optimizer::Problem& problem) {
-  if (optimizer::Evacuated(problem)) {
-    problem.configurations.erase(Configuration::kVacuumPump);
-    problem.configurations.erase(Configuration::kEjector);
-    return;
-  }
-  for (const Configuration one : problem.configurations)
-    if (!optimizer::IsDirect(one))
-      return supply.Fail("pumps", "must be shared, or left out, where supply.configurations has " +
-                                      Quoted(optimizer::Name(one)) +
-                                      ": pumps of their own are for direct_pump alone");
+// Vacuum pumps are asked for by what they evacuate, with a reservoir and without. `plain`: what the
+// field must be beside others; `what`: pumps it asks for.
+void KeepDirect(Reader& supply, const char* field, const std::string& plain,
+                const std::string& what, optimizer::Problem& problem) {
+  problem.configurations.erase(Configuration::kVacuumPump);
+  problem.configurations.erase(Configuration::kEjector);
+  const bool vacuum = optimizer::Evacuated(problem);
+  const auto other = std::find_if_not(problem.configurations.begin(), problem.configurations.end(),
+                                      [](Configuration one) { return optimizer::IsDirect(one); });
+  if (other == problem.configurations.end()) return;
+  std::string told = "must be " + plain + ", or left out, where supply.";
+  told += vacuum ? "vacuum.configurations has " : "configurations has ";
+  told += Quoted(optimizer::Name(*other)) + ": " + what + " are for ";
+  told += vacuum ? "pumps and ejectors alone" : "direct_pump alone";
+  supply.Fail(field, told);
+}
+
+// Whether some configuration is one of pumps without a reservoir; else the field fails.
+bool AsksForDirect(Reader& supply, const char* field, const optimizer::Problem& problem) {
+  const bool direct = std::any_of(problem.configurations.begin(), problem.configurations.end(),
+                                  [](Configuration one) { return optimizer::IsDirect(one); });
+  if (!direct)
+    supply.Fail(field,
+                "is for the configuration direct_pump, which supply.configurations does not name");
+  return direct;
 }
 
 void CheckActuators(Reader& supply, const optimizer::Problem& problem) {
@@ -52,24 +69,53 @@ void ReadPumps(Reader& supply, optimizer::Problem& problem) {
   if (!supply.Has("pumps")) return;
   problem.pump_feed = ReadEnum<PumpFeed>(
       supply, "pumps", {PumpFeed::kShared, PumpFeed::kPerGroup, PumpFeed::kPerActuator});
-  const bool direct = std::any_of(problem.configurations.begin(), problem.configurations.end(),
-                                  [](Configuration one) { return optimizer::IsDirect(one); });
-  if (!direct)
-    return supply.Fail(
-        "pumps", "is for the configuration direct_pump, which supply.configurations does not name");
-  if (problem.pump_feed == PumpFeed::kShared) return;
-  KeepDirect(supply, problem);
+  if (!AsksForDirect(supply, "pumps", problem) || problem.pump_feed == PumpFeed::kShared) return;
+  KeepDirect(supply, "pumps", "shared", "pumps of their own", problem);
   CheckActuators(supply, problem);
   for (optimizer::ActuatorGroup& group : problem.groups)
     group.fed_past_valve = problem.pump_feed == PumpFeed::kPerActuator;
 }
 
+void ReadHoldOn(Reader& supply, optimizer::Problem& problem) {
+  optimizer::SetPumpsHoldOn(supply.Bool("hold_on", false), problem);
+  if (!optimizer::PumpsHoldOn(problem) || !AsksForDirect(supply, "hold_on", problem)) return;
+  KeepDirect(supply, "hold_on", "false", "pumps that run on", problem);
+}
+
+void WarnOfTurns(const optimizer::Problem& problem) {
+  constexpr double kRounding = 1.0 - 1e-9;
+  RemarkRecorder* remarks = RemarkRecorder::Current();
+  if (!optimizer::PumpsHoldOn(problem) || remarks == nullptr) return;
+  for (const optimizer::FedSquad& fed : optimizer::FedSquadsOf(problem)) {
+    const int g = fed.squad.group;
+    const optimizer::ActuatorGroup& group = problem.groups[g];
+    const double window_s = group.gait.strokes_per_period * optimizer::InflateWindow(problem, g);
+    if (fed.run_s < kRounding * window_s)
+      return remarks->Warn("/supply/hold_on",
+                           "the pumps hold " + group.name +
+                               " only until they fill the next actuators: from then on its valves "
+                               "keep it");
+  }
+}
+
 bool SuitsFeed(const optimizer::Problem& problem, const catalog::Part& part) {
   const bool each = problem.pump_feed == PumpFeed::kPerActuator;
-  if (part.family == "valve") return Says(part, "function", "2/2") == each;
-  if (part.family == "compressor" || part.family == "vacuum_pump")
-    return !each || !Says(part, "check_valve", "no");
-  return true;
+  return part.family != "valve" || Says(part, "function", "2/2") == each;
+}
+
+bool LacksCheckValve(const optimizer::Problem& problem, const catalog::Part& part) {
+  return problem.pump_feed == PumpFeed::kPerActuator && Says(part, "check_valve", "no") &&
+         optimizer::CheckValveOf(problem, problem.parts) < 0;
+}
+
+std::string WhyNoPumps(const optimizer::Problem& problem) {
+  const bool any =
+      std::any_of(problem.configurations.begin(), problem.configurations.end(),
+                  [&](Configuration one) { return !optimizer::PumpsOf(problem, one).empty(); });
+  if (any || problem.pump_feed != PumpFeed::kPerActuator) return "";
+  return "must not be per_actuator: each pump that may be chosen lets air back while it is off "
+         "(check_valve: no), and no check valve that may be chosen stands the operating pressure "
+         "and passes enough";
 }
 
 std::string PiecesWanted(int most, int feeds) {
@@ -79,13 +125,10 @@ std::string PiecesWanted(int most, int feeds) {
   return (most == 1 ? "" : "a whole number ≥ 1 and ≤ ") + std::to_string(most);
 }
 
-std::string WhyNotForFeed(const optimizer::Problem& problem, const catalog::Part& part) {
+std::string WhyNotForFeed(const optimizer::Problem& problem) {
   if (problem.pump_feed != PumpFeed::kPerActuator)
     return " only vents (2/2): it is for a pump of each actuator, supply.pumps: \"per_actuator\"";
-  return part.family == "valve"
-             ? " has a way for filling, too: an actuator with a pump of its own has a 2/2 valve"
-             : " lets air back while it is off (check_valve: no): an actuator with a pump of its "
-               "own would not keep its pressure";
+  return " has a way for filling, too: an actuator with a pump of its own has a 2/2 valve";
 }
 
 }  // namespace plenum::api

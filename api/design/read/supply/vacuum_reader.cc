@@ -1,10 +1,12 @@
 #include "api/design/read/supply/vacuum_reader.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "api/design/read/supply/vacuum_rail.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 
@@ -53,6 +55,13 @@ void ReadWall(Reader& vacuum, bool asked, optimizer::Problem& problem) {
   mains->Finish();
 }
 
+// A low pressure that could not be read says all the same what the vacuum is for.
+bool LowPressureFailed(const Errors& errors) {
+  return std::any_of(errors.begin(), errors.end(), [](const Error& error) {
+    return error.pointer.ends_with("/low_pressure_kpa_gauge");
+  });
+}
+
 }  // namespace
 
 void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
@@ -63,12 +72,13 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
           {optimizer::GroupPointer(problem, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
            "must be on the same side of ambient pressure as that of the first group: actuators "
            "under pressure and evacuated ones in one design are not searched yet"});
+  if (HasVacuumRail(problem)) return ReadVacuumRail(supply, problem);
   if (evacuated) problem.compressed_air = std::exchange(problem.mains, {});
   auto vacuum = supply.OptionalObject("vacuum");
-  if (vacuum && !evacuated)
+  if (vacuum && !evacuated && !LowPressureFailed(supply.errors()))
     supply.Fail("vacuum",
-                "is for actuators that are evacuated: none has an operating pressure below 0 kPa "
-                "gauge");
+                "is for actuators that go below ambient: none has an operating pressure or a "
+                "low_pressure_kpa_gauge below 0 kPa gauge");
   Asked asked;
   if (vacuum) {
     asked = ReadKinds(*vacuum);

@@ -145,7 +145,7 @@ ScaleOrError ScaleOfPoints(std::string_view field, std::string_view text, double
   if (points.size() == 1) points.insert(points.begin(), UnitPoint{});
   if (points.size() != 2 || points[0].raw == points[1].raw || points[0].value == points[1].value)
     return {{}, Quoted(text) + " is no scale: it needs two points that differ"};
-  Scale scale;
+  ColumnScale scale;
   scale.numerator = points[1].value - points[0].value;
   scale.denominator = points[1].raw - points[0].raw;
   scale.offset = points[0].value - points[0].raw * scale.numerator / scale.denominator;
@@ -215,7 +215,7 @@ ScaleOrError ScaleOf(std::string_view field, std::string_view unit, double ambie
     return {{},
             Quoted(marked.text) + " is no unit of " + std::string(field) + "; units are " +
                 catalog::UnitNames(field)};
-  Scale scale;
+  ColumnScale scale;
   const double factor = *one.value - *zero.value, inverse = std::round(1.0 / factor);
   if (1.0 / inverse == factor)
     scale.denominator = inverse;  // as exact as a division

@@ -30,7 +30,7 @@ bool IsRawUnit(std::string_view unit);
 bool IsUnitOf(std::string_view field, std::string_view unit);
 
 // x of the column are x · numerator / denominator + offset of the field.
-struct Scale {
+struct ColumnScale {
   double numerator = 1.0, denominator = 1.0, offset = 0.0;
   double operator()(double x) const { return x * numerator / denominator + offset; }
 };
@@ -39,7 +39,7 @@ struct Scale {
 // points, or one and zero: "0.5 V = 0 bar; 4.5 V = 10 bar". An empty one is the field's own.
 // Absolute pressures become gauge with the ambient pressure.
 struct ScaleOrError {
-  Scale scale;
+  ColumnScale scale;
   std::string error;
 };
 ScaleOrError ScaleOf(std::string_view field, std::string_view unit, double ambient_kpa_abs);

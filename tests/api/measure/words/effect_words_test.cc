@@ -93,6 +93,8 @@ TEST(EffectWords, AWrongNumberIsSaidBesideTheDeclaredOne) {
             "expansion ratio is 2, 53 % more than declared");
   EXPECT_EQ(NumberInWords("rest_volume", 50.0, 54.5, "ml"),
             "rest volume is 54.5 mL, 9 % more than declared");
+  EXPECT_EQ(NumberInWords("ambient_pressure", 100.0, 89.7, "kpa_abs"),
+            "ambient pressure is 89.7 kPa absolute, 10 % less than declared");
 }
 
 }  // namespace effect_words_test

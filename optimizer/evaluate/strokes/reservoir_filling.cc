@@ -1,0 +1,336 @@
+#include "optimizer/evaluate/strokes/reservoir_filling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/integrate/dormand_prince.h"
+#include "model/physics/air.h"
+#include "model/strokes/stroke.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kTolerance = 1e-9;    // of what a step may be off
+constexpr double kEqual = 1e-9;        // nearer to the reservoir's pressure, a chamber is at it
+constexpr double kNearlyEqual = 3e-6;  // nearer, it may rise with it
+constexpr int kStepsMax = 2'000;       // until a window is over
+constexpr double kFirstStep = 1e-4;    // of that time
+
+enum class Valve { kOpen, kFollows, kClosed };
+
+// When in the last step what only rises came to a value, as a share of the step.
+template <class At>
+double ShareAt(const At& at, double value) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 50 && high - low > 1e-13; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle) < value ? low : high) = middle;
+  }
+  return high;
+}
+class ReservoirFilling {
+ public:
+  explicit ReservoirFilling(std::span<const StrokeOfMany> strokes)
+      : strokes_(strokes),
+        in_(strokes.front().line),
+        content_per_volume_(model::kReferencePressurePa * in_.temperature_k /
+                            model::kReferenceTemperatureK),
+        valves_(strokes.size(), Valve::kOpen),
+        state_(strokes.size() + kBeside, 0.0),
+        stepper_(state_.size()) {
+    for (std::size_t g = 0; g < size(); ++g) state_[g] = line(g).from_pa;
+    state_[size()] = in_.start_pa > 0.0 ? in_.start_pa : in_.stop_pa;
+    found_.rise_s.assign(size(), model::kNever);
+    found_.inflate_s = found_.rise_s;
+    found_.chamber_end_pa.assign(size(), 0.0);
+    full_ = state_[size()] >= in_.stop_pa && Drawn(state_, in_.stop_pa) <= Delivered(in_.stop_pa);
+  }
+
+  ReservoirStrokes Run(const std::function<bool()>& stop) {
+    while (AnyOpen()) {
+      double end_s = model::kNever;
+      for (std::size_t g = 0; g < size(); ++g)
+        if (valves_[g] != Valve::kClosed) end_s = std::min(end_s, strokes_[g].window_s);
+      if (!Advance(end_s, stop)) return {};
+      for (std::size_t g = 0; g < size(); ++g)
+        if (valves_[g] != Valve::kClosed && strokes_[g].window_s <= now_s_) {
+          if (std::isinf(found_.inflate_s[g])) return Found();
+          Close(g);
+        }
+    }
+    return Found();
+  }
+
+ private:
+  static constexpr std::size_t kBeside = 4;  // reservoir, pumps' time, energy, air
+
+  std::size_t size() const { return strokes_.size(); }
+  const model::ReservoirStrokeInput& line(std::size_t g) const { return strokes_[g].line; }
+  bool holds(std::size_t g) const { return line(g).open_s == 0.0; }
+  bool AnyOpen() const {
+    return std::any_of(valves_.begin(), valves_.end(),
+                       [](Valve valve) { return valve != Valve::kClosed; });
+  }
+  // Nothing changes any more until a window is over.
+  bool AtRest() const {
+    return full_ && std::none_of(valves_.begin(), valves_.end(),
+                                 [](Valve valve) { return valve == Valve::kOpen; });
+  }
+
+  ReservoirStrokes Found() {
+    found_.done = true;
+    found_.end_s = now_s_;
+    found_.reservoir_end_pa = state_[size()];
+    found_.pump_on_s = state_[size() + 1];
+    found_.pump_energy_j = state_[size() + 2];
+    found_.pump_air_m3 = state_[size() + 3];
+    return std::move(found_);
+  }
+
+  // Up to and including the highest pressure, which a pump still reaches.
+  double Delivered(double reservoir_pa) const {
+    const model::MonotoneCurve& flow = in_.compressor->free_air_m3_per_s;
+    if (flow.empty()) return 0.0;
+    const double highest_pa = std::min(reservoir_pa, model::HighestPressure(*in_.compressor));
+    return in_.compressors * flow(std::max(flow.front(), highest_pa));
+  }
+  double Drawn(std::size_t g, double reservoir_pa, double chamber_pa) const {
+    return chamber_pa < reservoir_pa ? line(g).count * line(g).fill->Flow(reservoir_pa, chamber_pa)
+                                     : 0.0;
+  }
+  double Drawn(std::span<const double> y, double reservoir_pa) const {
+    double drawn = 0.0;
+    for (std::size_t g = 0; g < size(); ++g)
+      if (valves_[g] == Valve::kOpen) drawn += Drawn(g, reservoir_pa, y[g]);
+    return drawn;
+  }
+
+  // Room of the chambers that rise with the reservoir.
+  double Room(std::span<const double> y) const {
+    double room_m3 = 0.0;
+    for (std::size_t g = 0; g < size(); ++g)
+      if (valves_[g] == Valve::kFollows)
+        room_m3 += line(g).count * model::ContentSlope(*line(g).chamber, y[g]);
+    return room_m3;
+  }
+  // The reservoir's pressure that holds what reservoir and followers do at a state, where they are
+  // behind it as their flow asks; in the state they stay as far behind as they came.
+  double Settled(std::span<const double> y, double slope) const {
+    double missing = 0.0;
+    for (std::size_t g = 0; g < size(); ++g)
+      if (valves_[g] == Valve::kFollows)
+        missing += line(g).count * model::ContentSlope(*line(g).chamber, y[g]) *
+                   (Behind(g, y[size()], slope) - (y[size()] - y[g]));
+    return y[size()] + missing / (in_.volume_rising_m3 + Room(y));
+  }
+  double ReservoirSlope(double delivered, double drawn, double room_m3) const {
+    const double net = delivered - drawn;
+    return content_per_volume_ * net /
+           (net < 0.0 ? in_.volume_falling_m3 : in_.volume_rising_m3 + room_m3);
+  }
+
+  void Slopes(std::span<const double> y, std::span<double> slopes) const {
+    double reservoir_pa = y[size()], drawn = Drawn(y, reservoir_pa);
+    const double room_m3 = full_ ? 0.0 : Room(y);
+    if (room_m3 > 0.0) {
+      reservoir_pa = Settled(y, ReservoirSlope(Delivered(reservoir_pa), drawn, room_m3));
+      drawn = Drawn(y, reservoir_pa);
+    }
+    const double delivered = Delivered(reservoir_pa), share = full_ ? drawn / delivered : 1.0;
+    slopes[size()] = full_ ? 0.0 : ReservoirSlope(delivered, drawn, room_m3);
+    slopes[size() + 1] = share;
+    slopes[size() + 2] =
+        share * in_.compressors * model::ElectricalPower(*in_.compressor, reservoir_pa);
+    slopes[size() + 3] = share * delivered;
+    for (std::size_t g = 0; g < size(); ++g)
+      slopes[g] = valves_[g] == Valve::kClosed ? 0.0
+                  : valves_[g] == Valve::kFollows
+                      ? slopes[size()]
+                      : content_per_volume_ * Drawn(g, reservoir_pa, y[g]) /
+                            (line(g).count * model::ContentSlope(*line(g).chamber, y[g]));
+  }
+
+  double Norm(std::span<const double> from, std::span<const double> to,
+              std::span<const double> error) const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      const double scale = i <= size() ? from[i] : to[i];
+      if (error[i] != 0.0) largest = std::max(largest, std::abs(error[i]) / scale);
+    }
+    return largest / kTolerance;
+  }
+
+  // To the end of the next window; false where that takes too many steps, or when stopped.
+  bool Advance(double end_s, const std::function<bool()>& stop) {
+    const auto rhs = [this](double, std::span<const double> y, std::span<double> slopes) {
+      Slopes(y, slopes);
+    };
+    const auto norm = [this](std::span<const double> from, std::span<const double> to,
+                             std::span<const double> error) { return Norm(from, to, error); };
+    double step_s = kFirstStep * (end_s - now_s_);
+    bool restart = true;
+    SetReleased();
+    for (int i = 0; now_s_ < end_s && AnyOpen() && !AtRest(); ++i) {
+      if (i == kStepsMax || (stop && i % 64 == 0 && stop())) return false;
+      if (restart) stepper_.Start(rhs, now_s_, state_, step_s);
+      if (stepper_.Step(rhs, end_s - now_s_, norm) == model::StepResult::kNotFinite) return false;
+      restart = Meet(rhs);
+      now_s_ = stepper_.time();
+      step_s = stepper_.next_step();
+      state_.assign(stepper_.state().begin(), stepper_.state().end());
+      SetReleased();
+      if (full_) state_[size()] = in_.stop_pa;
+    }
+    if (AnyOpen()) now_s_ = end_s;
+    return true;
+  }
+
+  void SetReleased() {
+    for (const auto& [g, pressure_pa] : set_) state_[g] = pressure_pa;
+    set_.clear();
+  }
+
+  // How far a chamber that rises with the reservoir is behind: its flow grows with the root of
+  // that.
+  double Behind(std::size_t g, double reservoir_pa, double slope) const {
+    constexpr double kSmall = 1e-8;
+    const model::ReservoirStrokeInput& in = line(g);
+    const double flow =
+        model::ContentSlope(*in.chamber, reservoir_pa) * slope / content_per_volume_;
+    const double head_pa = std::abs(reservoir_pa - model::MirrorPa(*in.chamber));
+    const double flow_per_root = head_pa * (*in.fill)(1.0 - kSmall) / std::sqrt(kSmall);
+    return head_pa * std::pow(std::max(0.0, flow) / flow_per_root, 2);
+  }
+  // The reservoir's pressure after a share of the last step.
+  double ReservoirAt(double share) const {
+    if (full_) return in_.stop_pa;
+    std::vector<double> y(size() + 1);
+    for (std::size_t i = 0; i <= size(); ++i) y[i] = stepper_.At(share, i);
+    return Settled(y, Slope());
+  }
+  double Slope() const { return full_ ? 0.0 : stepper_.derivative()[size()]; }
+  // Pressure of a chamber after a share of the last step.
+  double PressureAt(std::size_t g, double share) const {
+    if (valves_[g] != Valve::kFollows) return stepper_.At(share, g);
+    const double reservoir_pa = ReservoirAt(share);
+    return reservoir_pa - Behind(g, reservoir_pa, Slope());
+  }
+  double PressureNow(std::size_t g) const { return PressureAt(g, 1.0); }
+
+  double ShareOf(std::size_t g, double pressure_pa) const {
+    return ShareAt([&](double share) { return PressureAt(g, share); }, pressure_pa);
+  }
+
+  // Ends the last step where the reservoir is full or the first valve closes, and notes what it has
+  // come to. True where the equations go on in another way.
+  template <class Rhs>
+  bool Meet(const Rhs& rhs) {
+    double share = 1.0;
+    bool fills = false;
+    std::size_t closes = size();
+    if (!full_ && stepper_.state()[size()] >= in_.stop_pa && stepper_.derivative()[size()] > 0.0) {
+      fills = true;
+      share = ShareAt([&](double at) { return stepper_.At(at, size()); }, in_.stop_pa);
+    }
+    for (std::size_t g = 0; g < size(); ++g) {
+      if (!holds(g) || valves_[g] == Valve::kClosed || PressureNow(g) < line(g).operating_pa)
+        continue;
+      const double at = ShareOf(g, line(g).operating_pa);
+      if (at > share || (at == share && closes < size())) continue;
+      closes = g;
+      fills = fills && at == share;
+      share = at;
+    }
+    if (share < 1.0) stepper_.Shorten(rhs, share);
+    for (std::size_t g = 0; g < size(); ++g) {
+      if (valves_[g] == Valve::kClosed) continue;
+      Note(g, line(g).target_pa, g == closes, found_.rise_s[g]);
+      Note(g, line(g).operating_pa, g == closes, found_.inflate_s[g]);
+    }
+    if (fills) Release();
+    full_ = full_ || fills;
+    if (closes < size()) {
+      Close(closes);
+      return true;
+    }
+    return fills || Follow();
+  }
+
+  void Note(std::size_t g, double pressure_pa, bool surely, double& time_s) const {
+    if (!std::isinf(time_s) || !(surely || PressureNow(g) >= pressure_pa)) return;
+    time_s = stepper_.start_time() + ShareOf(g, pressure_pa) * stepper_.step();
+  }
+
+  // The reservoir goes on at another pace: chambers that rose with it are behind again, or ahead.
+  void Release() {
+    if (std::none_of(valves_.begin(), valves_.end(),
+                     [](Valve valve) { return valve == Valve::kFollows; }))
+      return;
+    for (std::size_t g = 0; g < size(); ++g)
+      if (valves_[g] == Valve::kFollows) set_.emplace_back(g, PressureNow(g));
+    set_.emplace_back(size(), ReservoirAt(1.0));
+    std::replace(valves_.begin(), valves_.end(), Valve::kFollows, Valve::kOpen);
+  }
+  void Close(std::size_t g) {
+    found_.chamber_end_pa[g] = holds(g) ? line(g).operating_pa : PressureOf(g);
+    Release();
+    valves_[g] = Valve::kClosed;
+  }
+  double PressureOf(std::size_t g) const {
+    return valves_[g] != Valve::kFollows ? state_[g] : AtRest() ? in_.stop_pa : PressureNow(g);
+  }
+
+  // Lets chambers that have come up to the reservoir rise with it; true where some do, or where it
+  // falls again.
+  bool Follow() {
+    const double reservoir_pa = stepper_.state()[size()];
+    const double slope = Slope();
+    const bool follows = std::any_of(valves_.begin(), valves_.end(),
+                                     [](Valve valve) { return valve == Valve::kFollows; });
+    if (slope < 0.0) {
+      if (follows) Release();
+      return follows;
+    }
+    bool changed = false;
+    for (std::size_t g = 0; g < size(); ++g) {
+      if (valves_[g] != Valve::kOpen) continue;
+      const double behind_pa = reservoir_pa - stepper_.state()[g];
+      if (behind_pa < -kEqual * reservoir_pa) continue;  // ahead: nothing flows back
+      if (behind_pa <= kEqual * reservoir_pa ||
+          (behind_pa <= kNearlyEqual * reservoir_pa &&
+           behind_pa <= 1.1 * Behind(g, reservoir_pa, slope))) {
+        valves_[g] = Valve::kFollows;
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+  std::span<const StrokeOfMany> strokes_;
+  const model::ReservoirStrokeInput& in_;  // of the reservoir and its pumps
+  double content_per_volume_;
+  std::vector<Valve> valves_;
+  std::vector<double> state_;  // chambers, and what is beside them
+  model::DormandPrince stepper_;
+  bool full_ = false;  // and the pumps cover the draw
+  double now_s_ = 0.0;
+  std::vector<std::pair<std::size_t, double>> set_;  // chambers whose pressure is to be set
+  ReservoirStrokes found_;
+};
+
+}  // namespace
+
+ReservoirStrokes FillFromReservoir(std::span<const StrokeOfMany> strokes,
+                                   const std::function<bool()>& stop) {
+  const model::ReservoirStrokeInput& in = strokes.front().line;
+  if (in.volume_falling_m3 > 0.0 && in.volume_rising_m3 > 0.0)
+    return ReservoirFilling(strokes).Run(stop);
+  ReservoirStrokes none;
+  none.done = true;
+  none.rise_s.assign(strokes.size(), model::kNever);
+  none.inflate_s = none.rise_s;
+  return none;
+}
+
+}  // namespace plenum::optimizer

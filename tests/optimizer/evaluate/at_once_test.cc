@@ -1,0 +1,148 @@
+// Groups at once on a pump's reservoir take as long as in a simulation of the whole cycle, and as
+// much of the pumps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/turn_strokes.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/pumps/vacuum_problems.h"
+
+namespace plenum::test {
+namespace at_once_test {
+
+using optimizer::Candidate;
+using optimizer::Configuration;
+using optimizer::OperatingPoint;
+using optimizer::Problem;
+using optimizer::Strokes;
+
+Problem Drawn(std::uint64_t seed, bool evacuated) {
+  Draw draw;
+  draw.seed = 8700 + seed;
+  draw.configurations = {evacuated ? Configuration::kVacuumPump : Configuration::kCompressor};
+  draw.groups = 2 + static_cast<int>(seed % 2);
+  draw.severity = 0.1;
+  draw.size = {1, 2, 3, 0, 0, 0, 1, 1, 2};
+  Problem problem = evacuated ? EvacuatedProblem(draw) : RandomProblem(draw);
+  problem.exclude.insert("custom");
+  if (seed % 3 == 0) problem.frequency_hz *= 20.0;  // too fast for some
+  // Groups of unlike size: one is full while the others still draw.
+  for (std::size_t g = 1; g < problem.groups.size(); ++g)
+    problem.groups[g].chamber.rest_volume_m3 *= g == 1 ? 0.05 : 4.0;
+  return problem;
+}
+
+struct Count {
+  int asked = 0, compared = 0, open = 0, slow = 0, unable = 0;
+};
+
+void ExpectAsSimulated(const Problem& problem, const Candidate& candidate,
+                       const OperatingPoint& point, Count& count) {
+  ++count.asked;
+  const std::optional<Strokes> at_once = optimizer::StrokesAtOnce(problem, candidate, point);
+  if (!at_once) {
+    const auto first = optimizer::FirstAtOnce(problem, candidate, point);
+    count.unable += !first;
+    return;
+  }
+  const Strokes simulated = optimizer::SimulateStrokes(problem, candidate, point);
+  if (simulated.failed) return;
+  const double period_s = 1.0 / problem.frequency_hz;
+  if (!at_once->works) {  // no other strokes are faster than those from a full reservoir
+    ++count.slow;
+    EXPECT_FALSE(simulated.works);
+    return;
+  }
+  EXPECT_LE(at_once->pump_on_s, period_s);
+  ASSERT_TRUE(simulated.works);
+  ++count.compared;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    count.open += !candidate.lines[g]->holds;
+    EXPECT_NEAR(at_once->rise_s[g], simulated.rise_s[g], 3e-5 * simulated.rise_s[g]);
+    EXPECT_NEAR(at_once->inflate_s[g], simulated.inflate_s[g], 3e-5 * simulated.inflate_s[g]);
+    if (!candidate.lines[g]->holds) {
+      EXPECT_NEAR(at_once->filled_pa[g], simulated.filled_pa[g], 1e-5 * simulated.filled_pa[g]);
+    }
+  }
+  EXPECT_NEAR(at_once->pump_on_s, simulated.pump_on_s, 1e-4 * simulated.pump_on_s);
+  EXPECT_NEAR(at_once->pump_energy_j, simulated.pump_energy_j, 1e-4 * simulated.pump_energy_j);
+  EXPECT_NEAR(at_once->pump_air_m3, simulated.pump_air_m3, 1e-4 * simulated.pump_air_m3);
+}
+
+Count Compare(bool evacuated) {
+  Count count;
+  for (std::uint64_t seed = 1; seed <= 14; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Problem problem = Drawn(seed, evacuated);
+    int looked = 0;
+    ForEachCombination(problem, [&](const Candidate& candidate) {
+      if (++looked % 5 != 1 || looked > 5 * 8) return;
+      const optimizer::Window window = optimizer::SourceWindow(problem, candidate);
+      if (window.empty()) return;
+      for (double share : {0.003, 0.3, 1.0})
+        for (double part : {0.02, 1.0}) {
+          const double volume_m3 = part * StockVolume(problem, candidate);
+          ExpectAsSimulated(
+              problem, candidate,
+              {window.low_pa + share * (window.high_pa - window.low_pa), volume_m3, volume_m3},
+              count);
+        }
+    });
+  }
+  return count;
+}
+
+TEST(AtOnceTest, AsSimulated) {
+  const Count count = Compare(false);
+  EXPECT_GT(count.compared, 30);
+  EXPECT_GT(count.open, 5);
+  EXPECT_GT(count.slow, 5);
+  EXPECT_LT(count.unable, count.asked / 5);
+}
+
+TEST(AtOnceTest, EvacuatedAsSimulated) {
+  const Count count = Compare(true);
+  EXPECT_GT(count.compared, 20);
+  EXPECT_LT(count.unable, count.asked / 5);
+}
+
+// A group in two halves is the group: one stroke of all chambers, integrated over their pressure.
+TEST(AtOnceTest, HalvesAreTheWhole) {
+  int compared = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Problem whole = Drawn(seed, false);
+    whole.groups.resize(1);
+    whole.groups[0].count = 2;
+    ForEachCombination(whole, [&](const Candidate& candidate) {
+      const optimizer::Window window = optimizer::SourceWindow(whole, candidate);
+      if (window.empty()) return;
+      const double volume_m3 = StockVolume(whole, candidate);
+      const OperatingPoint point{window.high_pa, volume_m3, volume_m3};
+      const Strokes one = optimizer::EvaluateStrokes(whole, candidate, point);
+      Problem halves = whole;
+      halves.groups[0].count = 1;
+      halves.groups.push_back(halves.groups[0]);
+      Candidate both = candidate;
+      both.lines.push_back(both.lines[0]);
+      const std::optional<Strokes> two = optimizer::StrokesAtOnce(halves, both, point);
+      if (!two) return;
+      EXPECT_EQ(two->works, one.works && one.inflate_s[0] <= optimizer::InflateWindow(whole, 0));
+      if (!one.works || !two->works) return;
+      ++compared;
+      for (std::size_t g = 0; g < 2; ++g) {
+        EXPECT_NEAR(two->rise_s[g], one.rise_s[0], 1e-5 * one.rise_s[0]);
+        EXPECT_NEAR(two->inflate_s[g], one.inflate_s[0], 1e-5 * one.inflate_s[0]);
+      }
+      EXPECT_NEAR(two->pump_on_s, one.pump_on_s, 5e-5 * one.pump_on_s);
+      EXPECT_NEAR(two->pump_energy_j, one.pump_energy_j, 5e-5 * one.pump_energy_j);
+    });
+  }
+  EXPECT_GT(compared, 20);
+}
+
+}  // namespace at_once_test
+}  // namespace plenum::test
