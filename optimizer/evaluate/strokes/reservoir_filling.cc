@@ -4,17 +4,20 @@
 #include <cmath>
 #include <limits>
 
-#include "model/integrate/dormand_prince.h"
 #include "model/physics/air.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/strokes/stiff_stepper.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kTolerance = 1e-9;    // of what a step may be off
+// Of what a step may be off, explicit or implicit: those follow what changes slowly.
+constexpr double kTolerance = 1e-9, kStiffTolerance = 2e-8;
 constexpr double kEqual = 1e-9;        // nearer to the reservoir's pressure, a chamber is at it
-constexpr double kNearlyEqual = 3e-6;  // nearer, it may rise with it
-constexpr int kStepsMax = 2'000;       // until a window is over
+constexpr double kNearlyEqual = 1e-5;  // nearer, it may rise with it
+constexpr double kSettled = 3e-7;      // where it is no further off from what it then is behind
+constexpr int kHeldDown = 15;          // steps in a row, before they become implicit
+constexpr int kStepsMax = 3'000;       // until a window is over
 constexpr double kFirstStep = 1e-4;    // of that time
 
 enum class Valve { kOpen, kFollows, kClosed };
@@ -29,6 +32,7 @@ double ShareAt(const At& at, double value) {
   }
   return high;
 }
+
 class ReservoirFilling {
  public:
   explicit ReservoirFilling(std::span<const StrokeOfMany> strokes)
@@ -37,7 +41,7 @@ class ReservoirFilling {
         content_per_volume_(model::kReferencePressurePa * in_.temperature_k /
                             model::kReferenceTemperatureK),
         valves_(strokes.size(), Valve::kOpen),
-        state_(strokes.size() + kBeside, 0.0),
+        state_(strokes.size() + 1, 0.0),
         stepper_(state_.size()) {
     for (std::size_t g = 0; g < size(); ++g) state_[g] = line(g).from_pa;
     state_[size()] = in_.start_pa > 0.0 ? in_.start_pa : in_.stop_pa;
@@ -63,14 +67,16 @@ class ReservoirFilling {
   }
 
  private:
-  static constexpr std::size_t kBeside = 4;  // reservoir, pumps' time, energy, air
-
   std::size_t size() const { return strokes_.size(); }
   const model::ReservoirStrokeInput& line(std::size_t g) const { return strokes_[g].line; }
   bool holds(std::size_t g) const { return line(g).open_s == 0.0; }
   bool AnyOpen() const {
     return std::any_of(valves_.begin(), valves_.end(),
                        [](Valve valve) { return valve != Valve::kClosed; });
+  }
+  bool AnyFollows() const {
+    return std::any_of(valves_.begin(), valves_.end(),
+                       [](Valve valve) { return valve == Valve::kFollows; });
   }
   // Nothing changes any more until a window is over.
   bool AtRest() const {
@@ -82,9 +88,6 @@ class ReservoirFilling {
     found_.done = true;
     found_.end_s = now_s_;
     found_.reservoir_end_pa = state_[size()];
-    found_.pump_on_s = state_[size() + 1];
-    found_.pump_energy_j = state_[size() + 2];
-    found_.pump_air_m3 = state_[size() + 3];
     return std::move(found_);
   }
 
@@ -137,12 +140,7 @@ class ReservoirFilling {
       reservoir_pa = Settled(y, ReservoirSlope(Delivered(reservoir_pa), drawn, room_m3));
       drawn = Drawn(y, reservoir_pa);
     }
-    const double delivered = Delivered(reservoir_pa), share = full_ ? drawn / delivered : 1.0;
-    slopes[size()] = full_ ? 0.0 : ReservoirSlope(delivered, drawn, room_m3);
-    slopes[size() + 1] = share;
-    slopes[size() + 2] =
-        share * in_.compressors * model::ElectricalPower(*in_.compressor, reservoir_pa);
-    slopes[size() + 3] = share * delivered;
+    slopes[size()] = full_ ? 0.0 : ReservoirSlope(Delivered(reservoir_pa), drawn, room_m3);
     for (std::size_t g = 0; g < size(); ++g)
       slopes[g] = valves_[g] == Valve::kClosed ? 0.0
                   : valves_[g] == Valve::kFollows
@@ -151,14 +149,12 @@ class ReservoirFilling {
                             (line(g).count * model::ContentSlope(*line(g).chamber, y[g]));
   }
 
-  double Norm(std::span<const double> from, std::span<const double> to,
-              std::span<const double> error) const {
+  double Norm(std::span<const double> from, std::span<const double> error) const {
     double largest = 0.0;
     for (std::size_t i = 0; i < error.size(); ++i) {
-      const double scale = i <= size() ? from[i] : to[i];
-      if (error[i] != 0.0) largest = std::max(largest, std::abs(error[i]) / scale);
+      largest = std::max(largest, std::abs(error[i]) / from[i]);
     }
-    return largest / kTolerance;
+    return largest / (stepper_.stiff() ? kStiffTolerance : kTolerance);
   }
 
   // To the end of the next window; false where that takes too many steps, or when stopped.
@@ -166,10 +162,11 @@ class ReservoirFilling {
     const auto rhs = [this](double, std::span<const double> y, std::span<double> slopes) {
       Slopes(y, slopes);
     };
-    const auto norm = [this](std::span<const double> from, std::span<const double> to,
-                             std::span<const double> error) { return Norm(from, to, error); };
+    const auto norm = [this](std::span<const double> from, std::span<const double>,
+                             std::span<const double> error) { return Norm(from, error); };
     double step_s = kFirstStep * (end_s - now_s_);
     bool restart = true;
+    int held_down = 0;
     SetReleased();
     for (int i = 0; now_s_ < end_s && AnyOpen() && !AtRest(); ++i) {
       if (i == kStepsMax || (stop && i % 64 == 0 && stop())) return false;
@@ -181,9 +178,24 @@ class ReservoirFilling {
       state_.assign(stepper_.state().begin(), stepper_.state().end());
       SetReleased();
       if (full_) state_[size()] = in_.stop_pa;
+      held_down = !restart && IsHeldDown() ? held_down + 1 : 0;
+      if (held_down == kHeldDown) stepper_.BeStiff(rhs);
     }
     if (AnyOpen()) now_s_ = end_s;
     return true;
+  }
+
+  // Whether stability holds down an explicit step: a chamber comes closer to the reservoir at the
+  // rate λ = (dp/dt)/(2·behind), since its flow grows with the root of that.
+  bool IsHeldDown() const {
+    constexpr double kStable = 0.5;  // |λ|·h; the reservoir may come as much closer
+    for (std::size_t g = 0; g < size(); ++g) {
+      const double behind_pa = stepper_.state()[size()] - stepper_.state()[g];
+      if (valves_[g] == Valve::kOpen && behind_pa > 0.0 &&
+          stepper_.derivative()[g] * stepper_.step() > 2.0 * kStable * behind_pa)
+        return true;
+    }
+    return false;
   }
 
   void SetReleased() {
@@ -205,9 +217,12 @@ class ReservoirFilling {
   // The reservoir's pressure after a share of the last step.
   double ReservoirAt(double share) const {
     if (full_) return in_.stop_pa;
+    return AnyFollows() ? Settled(StateAt(share), Slope()) : stepper_.At(share, size());
+  }
+  std::vector<double> StateAt(double share) const {  // in the last step
     std::vector<double> y(size() + 1);
     for (std::size_t i = 0; i <= size(); ++i) y[i] = stepper_.At(share, i);
-    return Settled(y, Slope());
+    return y;
   }
   double Slope() const { return full_ ? 0.0 : stepper_.derivative()[size()]; }
   // Pressure of a chamber after a share of the last step.
@@ -215,6 +230,21 @@ class ReservoirFilling {
     if (valves_[g] != Valve::kFollows) return stepper_.At(share, g);
     const double reservoir_pa = ReservoirAt(share);
     return reservoir_pa - Behind(g, reservoir_pa, Slope());
+  }
+  // Time, energy and air of the pumps in the last step, by the rule of Gauss.
+  void CountPumps() {
+    constexpr double kAside = 0.3872983346207417;  // half of √0.6
+    constexpr double kShares[] = {0.5 - kAside, 0.5, 0.5 + kAside};
+    constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    for (int i = 0; i < 3; ++i) {
+      const double reservoir_pa = ReservoirAt(kShares[i]), delivered = Delivered(reservoir_pa);
+      double on_s = kWeights[i] * stepper_.step();
+      if (full_) on_s *= Drawn(StateAt(kShares[i]), reservoir_pa) / delivered;
+      found_.pump_on_s += on_s;
+      found_.pump_energy_j +=
+          on_s * in_.compressors * model::ElectricalPower(*in_.compressor, reservoir_pa);
+      found_.pump_air_m3 += on_s * delivered;
+    }
   }
   double PressureNow(std::size_t g) const { return PressureAt(g, 1.0); }
 
@@ -243,6 +273,7 @@ class ReservoirFilling {
       share = at;
     }
     if (share < 1.0) stepper_.Shorten(rhs, share);
+    CountPumps();
     for (std::size_t g = 0; g < size(); ++g) {
       if (valves_[g] == Valve::kClosed) continue;
       Note(g, line(g).target_pa, g == closes, found_.rise_s[g]);
@@ -264,9 +295,7 @@ class ReservoirFilling {
 
   // The reservoir goes on at another pace: chambers that rose with it are behind again, or ahead.
   void Release() {
-    if (std::none_of(valves_.begin(), valves_.end(),
-                     [](Valve valve) { return valve == Valve::kFollows; }))
-      return;
+    if (!AnyFollows()) return;
     for (std::size_t g = 0; g < size(); ++g)
       if (valves_[g] == Valve::kFollows) set_.emplace_back(g, PressureNow(g));
     set_.emplace_back(size(), ReservoirAt(1.0));
@@ -286,8 +315,7 @@ class ReservoirFilling {
   bool Follow() {
     const double reservoir_pa = stepper_.state()[size()];
     const double slope = Slope();
-    const bool follows = std::any_of(valves_.begin(), valves_.end(),
-                                     [](Valve valve) { return valve == Valve::kFollows; });
+    const bool follows = AnyFollows();
     if (slope < 0.0) {
       if (follows) Release();
       return follows;
@@ -296,10 +324,11 @@ class ReservoirFilling {
     for (std::size_t g = 0; g < size(); ++g) {
       if (valves_[g] != Valve::kOpen) continue;
       const double behind_pa = reservoir_pa - stepper_.state()[g];
-      if (behind_pa < -kEqual * reservoir_pa) continue;  // ahead: nothing flows back
-      if (behind_pa <= kEqual * reservoir_pa ||
-          (behind_pa <= kNearlyEqual * reservoir_pa &&
-           behind_pa <= 1.1 * Behind(g, reservoir_pa, slope))) {
+      const double settled_pa = Behind(g, reservoir_pa, slope);
+      const double off_pa =
+          std::max(kEqual * reservoir_pa, std::min(0.1 * settled_pa, kSettled * reservoir_pa));
+      if (std::max(behind_pa, settled_pa) <= kNearlyEqual * reservoir_pa &&
+          std::abs(behind_pa - settled_pa) <= off_pa) {
         valves_[g] = Valve::kFollows;
         changed = true;
       }
@@ -312,7 +341,7 @@ class ReservoirFilling {
   double content_per_volume_;
   std::vector<Valve> valves_;
   std::vector<double> state_;  // chambers, and what is beside them
-  model::DormandPrince stepper_;
+  StiffStepper stepper_;
   bool full_ = false;  // and the pumps cover the draw
   double now_s_ = 0.0;
   std::vector<std::pair<std::size_t, double>> set_;  // chambers whose pressure is to be set

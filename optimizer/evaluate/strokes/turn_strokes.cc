@@ -9,12 +9,20 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kRepeats = 1e-9;  // of the reservoir's pressure
+// Of the reservoir's pressure; of bursts, which are integrated in steps.
+constexpr double kRepeats = 1e-9, kBurstRepeats = 1e-7;
 constexpr int kPeriodsMax = 200;
 
+// What begins at once: a squad, or all of a burst.
 struct Turn {
   Squad squad;
   double begin_s, until_next_s;
+};
+
+// A stroke, or those of a burst, until the last valve closes.
+struct Draw {
+  model::ReservoirStroke stroke;
+  double end_s = 0.0;
 };
 
 std::vector<Turn> TurnsOf(const Problem& problem) {
@@ -40,26 +48,55 @@ bool AllAlike(const std::vector<Turn>& turns) {
   });
 }
 
+bool HasCurves(const Candidate& candidate) {
+  return std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                     [](const Line* line) { return line->curve != nullptr; });
+}
+
+ReservoirStrokes Burst(const Problem& problem, const Candidate& candidate,
+                       const OperatingPoint& point, double start_pa) {
+  std::vector<StrokeOfMany> many;
+  many.reserve(problem.groups.size());
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    many.push_back(
+        {MakeStrokeInput(problem, candidate, point, g, FilledAtOnce(problem, g), start_pa),
+         InflateWindow(problem, g)});
+  return FillFromReservoir(
+      many, candidate.bench != nullptr ? candidate.bench->stop : std::function<bool()>());
+}
+
 class Turns {
  public:
-  Turns(const Problem& problem, const Candidate& candidate, const OperatingPoint& point)
-      : problem_(problem), candidate_(candidate), point_(point), turns_(TurnsOf(problem)) {
+  // `at_once`: all groups in bursts.
+  Turns(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+        bool at_once)
+      : problem_(problem),
+        candidate_(candidate),
+        point_(point),
+        at_once_(at_once),
+        turns_(at_once ? std::vector<Turn>{} : TurnsOf(problem)) {
+    if (at_once) {
+      times_ = BurstsPerPeriod(problem);
+      turns_.push_back({{}, 0.0, 1.0 / (times_ * problem.frequency_hz)});
+      return;
+    }
     if (!AllAlike(turns_)) return;
     times_ = static_cast<double>(turns_.size());
     turns_.resize(1);
   }
 
   std::optional<Strokes> Run() {
-    // The solution is below high_pa and not below low_pa.
+    const double repeats = at_once_ ? kBurstRepeats : kRepeats;
+    // The solution is below high_pa and, where strokes work there, not below low_pa.
     double high_pa = point_.source_pa, high_rise = Rise(high_pa);
-    if (overlap_) return std::nullopt;
-    if (!strokes_.works || high_rise >= -kRepeats * high_pa) return strokes_;
+    if (unable_) return std::nullopt;
+    if (!strokes_.works || high_rise >= -repeats * high_pa) return strokes_;
     double low_pa = problem_.ambient.pressure_pa, low_rise = kUnlimited;
     double next_pa = high_pa + high_rise;  // as the rig goes on by itself
     for (int i = 0; i < kPeriodsMax && !candidate_.stopped(); ++i) {
       const double pa = next_pa, rise = Rise(pa);
-      if (overlap_) return std::nullopt;
-      if (strokes_.works && std::abs(rise) <= kRepeats * pa) return strokes_;
+      if (unable_) return std::nullopt;
+      if (strokes_.works && std::abs(rise) <= repeats * pa) return strokes_;
       if (strokes_.works && rise < 0.0) {
         // The chord through two periods above.
         const double slope = (rise - high_rise) / (pa - high_pa);
@@ -74,40 +111,63 @@ class Turns {
                       : 0.5 * (low_pa + high_pa);
       }
       if (!(next_pa > low_pa && next_pa < high_pa)) next_pa = 0.5 * (low_pa + high_pa);
-      if (high_pa - low_pa <= kRepeats * high_pa) return strokes_;
+      if (high_pa - low_pa <= repeats * high_pa) {
+        strokes_.works = std::isfinite(low_rise);
+        return strokes_;
+      }
     }
     return std::nullopt;
   }
 
  private:
-  // What the reservoir rises by in a period that begins with so much; sets strokes_ and overlap_.
+  // What the reservoir rises by in a period that begins with so much; sets strokes_ and unable_.
   double Rise(double begin_pa) {
     strokes_ = ToBeKept(problem_);
     strokes_.works = true;
     double reservoir_pa = begin_pa;
     for (const Turn& turn : turns_) {
       reservoir_pa = After(turn, reservoir_pa);
-      if (!strokes_.works || overlap_) break;
+      if (!strokes_.works || unable_) break;
     }
     return reservoir_pa - begin_pa;
   }
 
-  // One stroke, and the pumps until the next.
-  double After(const Turn& turn, double start_pa) {
-    const int g = turn.squad.group;
-    const model::ReservoirStrokeInput input =
-        MakeStrokeInput(problem_, candidate_, point_, g, turn.squad.count, start_pa);
+  Draw Alone(const model::ReservoirStrokeInput& input, int g) {
     const model::ReservoirStroke stroke = model::FillFromReservoir(input);
     Keep(strokes_.rise_s[g], stroke.reached ? stroke.rise_s : model::kNever);
     Keep(strokes_.inflate_s[g], stroke.reached ? stroke.inflate_s : model::kNever);
     Keep(strokes_.filled_pa[g], stroke.chamber_end_pa);
-    if (!stroke.reached || stroke.inflate_s > InflateWindow(problem_, g)) {
-      strokes_.works = false;
-      return start_pa;
-    }
-    const double left_s = turn.until_next_s - std::max(stroke.inflate_s, input.open_s);
+    strokes_.works = stroke.reached && stroke.inflate_s <= InflateWindow(problem_, g);
+    return {stroke, std::max(stroke.inflate_s, input.open_s)};
+  }
+
+  Draw AtOnce(double start_pa) {
+    ReservoirStrokes found = Burst(problem_, candidate_, point_, start_pa);
+    unable_ = !found.done;
+    if (unable_) return {};
+    strokes_.rise_s = std::move(found.rise_s);
+    strokes_.inflate_s = std::move(found.inflate_s);
+    strokes_.filled_pa = std::move(found.chamber_end_pa);
+    strokes_.works = AllReached(strokes_);
+    Draw draw;
+    draw.stroke.reservoir_end_pa = found.reservoir_end_pa;
+    draw.stroke.pump_on_s = found.pump_on_s;
+    draw.stroke.pump_energy_j = found.pump_energy_j;
+    draw.stroke.pump_air_m3 = found.pump_air_m3;
+    draw.end_s = found.end_s;
+    return draw;
+  }
+
+  // One stroke, or a burst, and the pumps until the next.
+  double After(const Turn& turn, double start_pa) {
+    const int g = turn.squad.group;
+    const model::ReservoirStrokeInput input =
+        MakeStrokeInput(problem_, candidate_, point_, g, turn.squad.count, start_pa);
+    const auto [stroke, end_s] = at_once_ ? AtOnce(start_pa) : Alone(input, g);
+    if (unable_ || !strokes_.works) return start_pa;
+    const double left_s = turn.until_next_s - end_s;
     if (left_s < 0.0) {
-      overlap_ = true;
+      unable_ = true;
       return start_pa;
     }
     const double end_pa = model::PressureAfterPumping(
@@ -128,10 +188,11 @@ class Turns {
   const Problem& problem_;
   const Candidate& candidate_;
   const OperatingPoint& point_;
+  bool at_once_;
   std::vector<Turn> turns_;
   double times_ = 1.0;  // that they come in a period
   Strokes strokes_;
-  bool overlap_ = false;
+  bool unable_ = false;  // to integrate it
 };
 
 }  // namespace
@@ -170,52 +231,21 @@ model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candid
 
 std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point) {
-  const bool curves = std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                                  [](const Line* line) { return line->curve != nullptr; });
-  if (!IsBurst(problem) || !curves) return std::nullopt;
-  std::vector<StrokeOfMany> many;
-  many.reserve(problem.groups.size());
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    many.push_back(
-        {MakeStrokeInput(problem, candidate, point, g, FilledAtOnce(problem, g), point.source_pa),
-         InflateWindow(problem, g)});
-  ReservoirStrokes found = FillFromReservoir(
-      many, candidate.bench != nullptr ? candidate.bench->stop : std::function<bool()>());
+  if (!IsBurst(problem) || !HasCurves(candidate)) return std::nullopt;
+  ReservoirStrokes found = Burst(problem, candidate, point, point.source_pa);
   if (!found.done) return std::nullopt;
   return found;
 }
 
 std::optional<Strokes> StrokesAtOnce(const Problem& problem, const Candidate& candidate,
                                      const OperatingPoint& point) {
-  std::optional<ReservoirStrokes> found = FirstAtOnce(problem, candidate, point);
-  if (!found) return std::nullopt;
-  Strokes strokes = ToBeKept(problem);
-  strokes.rise_s = std::move(found->rise_s);
-  strokes.inflate_s = std::move(found->inflate_s);
-  strokes.works = AllReached(strokes);
-  if (!strokes.works) return strokes;
-  const model::ReservoirStrokeInput in =
-      MakeStrokeInput(problem, candidate, point, 0, FilledAtOnce(problem, 0), point.source_pa);
-  const double refill_s = model::PumpUpTime(*in.compressor, in.compressors, in.volume_rising_m3,
-                                            found->reservoir_end_pa, in.stop_pa, in.temperature_k);
-  const double bursts = BurstsPerPeriod(problem);
-  if (!((found->end_s + refill_s) * bursts * problem.frequency_hz <= 1.0)) return std::nullopt;
-  strokes.filled_pa = std::move(found->chamber_end_pa);
-  model::ReservoirStroke all;
-  all.reservoir_end_pa = found->reservoir_end_pa;
-  all.pump_on_s = found->pump_on_s;
-  all.pump_energy_j = found->pump_energy_j;
-  all.pump_air_m3 = found->pump_air_m3;
-  const Pumped pumped = PumpedFor(in, all, in.stop_pa, refill_s);
-  strokes.pump_on_s = bursts * pumped.on_s;
-  strokes.pump_energy_j = bursts * pumped.energy_j;
-  strokes.pump_air_m3 = bursts * pumped.air_m3;
-  return strokes;
+  if (!IsBurst(problem) || !HasCurves(candidate)) return std::nullopt;
+  return Turns(problem, candidate, point, true).Run();
 }
 
 std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& candidate,
                                       const OperatingPoint& point) {
-  return Turns(problem, candidate, point).Run();
+  return Turns(problem, candidate, point, false).Run();
 }
 
 }  // namespace plenum::optimizer

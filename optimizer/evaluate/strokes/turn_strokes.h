@@ -1,11 +1,9 @@
 // The periodic state of strokes out of a compressor's reservoir, each of which ends before the next
-// begins, so that only the reservoir's pressure is handed on.
+// begins, or of all groups at once in bursts, so that only the reservoir's pressure is handed on.
 //
 // With F the reservoir's pressure after a period that began with p, F rises with p and by less than
 // it does, so that p = F(p) has one solution; found from the stop pressure down. A stroke that is
 // too slow there is too slow in the periodic state, where the reservoir holds no more.
-//
-// And strokes of all groups at once, in bursts, each from a full reservoir.
 #ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
 
@@ -27,8 +25,7 @@ std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& c
 std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point);
 
-// The periodic state of such bursts; none, too, where the reservoir is not full again before the
-// next one.
+// The periodic state of such bursts, as exact as reservoir_filling.h.
 std::optional<Strokes> StrokesAtOnce(const Problem& problem, const Candidate& candidate,
                                      const OperatingPoint& point);
 

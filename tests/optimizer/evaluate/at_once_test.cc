@@ -36,7 +36,7 @@ Problem Drawn(std::uint64_t seed, bool evacuated) {
 }
 
 struct Count {
-  int asked = 0, compared = 0, open = 0, slow = 0, unable = 0;
+  int asked = 0, compared = 0, open = 0, never_full = 0, slow = 0, unable = 0;
 };
 
 void ExpectAsSimulated(const Problem& problem, const Candidate& candidate,
@@ -56,9 +56,10 @@ void ExpectAsSimulated(const Problem& problem, const Candidate& candidate,
     EXPECT_FALSE(simulated.works);
     return;
   }
-  EXPECT_LE(at_once->pump_on_s, period_s);
+  EXPECT_LE(at_once->pump_on_s, period_s * (1.0 + 1e-9));
   ASSERT_TRUE(simulated.works);
   ++count.compared;
+  count.never_full += at_once->pump_on_s > period_s * (1.0 - 1e-9);
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     count.open += !candidate.lines[g]->holds;
     EXPECT_NEAR(at_once->rise_s[g], simulated.rise_s[g], 3e-5 * simulated.rise_s[g]);
@@ -76,13 +77,14 @@ Count Compare(bool evacuated) {
   Count count;
   for (std::uint64_t seed = 1; seed <= 14; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Problem problem = Drawn(seed, evacuated);
+    Problem problem = Drawn(seed, evacuated);
+    if (seed % 2 == 0) problem.frequency_hz *= 1.7;  // some reservoirs are never full again
     int looked = 0;
     ForEachCombination(problem, [&](const Candidate& candidate) {
       if (++looked % 5 != 1 || looked > 5 * 8) return;
       const optimizer::Window window = optimizer::SourceWindow(problem, candidate);
       if (window.empty()) return;
-      for (double share : {0.003, 0.3, 1.0})
+      for (double share : {0.003, 0.3, 0.9, 1.0})
         for (double part : {0.02, 1.0}) {
           const double volume_m3 = part * StockVolume(problem, candidate);
           ExpectAsSimulated(
@@ -100,6 +102,7 @@ TEST(AtOnceTest, AsSimulated) {
   EXPECT_GT(count.compared, 30);
   EXPECT_GT(count.open, 5);
   EXPECT_GT(count.slow, 5);
+  EXPECT_GT(count.never_full, 5);
   EXPECT_LT(count.unable, count.asked / 5);
 }
 
@@ -132,6 +135,8 @@ TEST(AtOnceTest, HalvesAreTheWhole) {
       if (!two) return;
       EXPECT_EQ(two->works, one.works && one.inflate_s[0] <= optimizer::InflateWindow(whole, 0));
       if (!one.works || !two->works) return;
+      // Of one group alone a reservoir that would not be full again is not looked at any further.
+      if (one.pump_on_s > 1.0 / whole.frequency_hz) return;
       ++compared;
       for (std::size_t g = 0; g < 2; ++g) {
         EXPECT_NEAR(two->rise_s[g], one.rise_s[0], 1e-5 * one.rise_s[0]);
