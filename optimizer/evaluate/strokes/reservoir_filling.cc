@@ -16,7 +16,6 @@ constexpr double kTolerance = 1e-9, kStiffTolerance = 2e-8;
 constexpr double kEqual = 1e-9;        // nearer to the reservoir's pressure, a chamber is at it
 constexpr double kNearlyEqual = 1e-5;  // nearer, it may rise with it
 constexpr double kSettled = 3e-7;      // where it is no further off from what it then is behind
-constexpr int kHeldDown = 15;          // steps in a row, before they become implicit
 constexpr int kStepsMax = 3'000;       // until a window is over
 constexpr double kFirstStep = 1e-4;    // of that time
 
@@ -178,23 +177,18 @@ class ReservoirFilling {
       state_.assign(stepper_.state().begin(), stepper_.state().end());
       SetReleased();
       if (full_) state_[size()] = in_.stop_pa;
-      held_down = !restart && IsHeldDown() ? held_down + 1 : 0;
+      held_down = !restart && AnyHeldDown() ? held_down + 1 : 0;
       if (held_down == kHeldDown) stepper_.BeStiff(rhs);
     }
     if (AnyOpen()) now_s_ = end_s;
     return true;
   }
 
-  // Whether stability holds down an explicit step: a chamber comes closer to the reservoir at the
-  // rate λ = (dp/dt)/(2·behind), since its flow grows with the root of that.
-  bool IsHeldDown() const {
-    constexpr double kStable = 0.5;  // |λ|·h; the reservoir may come as much closer
-    for (std::size_t g = 0; g < size(); ++g) {
-      const double behind_pa = stepper_.state()[size()] - stepper_.state()[g];
-      if (valves_[g] == Valve::kOpen && behind_pa > 0.0 &&
-          stepper_.derivative()[g] * stepper_.step() > 2.0 * kStable * behind_pa)
+  bool AnyHeldDown() const {
+    for (std::size_t g = 0; g < size(); ++g)
+      if (valves_[g] == Valve::kOpen && IsHeldDown(stepper_.step(), stepper_.derivative()[g],
+                                                   stepper_.state()[size()] - stepper_.state()[g]))
         return true;
-    }
     return false;
   }
 

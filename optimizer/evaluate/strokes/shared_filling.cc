@@ -8,19 +8,20 @@
 #include <vector>
 
 #include "model/flow/flow_table.h"
-#include "model/integrate/dormand_prince.h"
 #include "model/physics/air.h"
 #include "model/strokes/stroke.h"
 #include "optimizer/evaluate/strokes/filling_commands.h"
+#include "optimizer/evaluate/strokes/stiff_stepper.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kTolerance = 1e-8;  // of what a step may be off
-constexpr double kEqual = 1e-12;     // nearer to the node's pressure, a chamber is at it
-constexpr double kFull = 1e-8;       // the same of the source's pressure
-constexpr double kNear = 1e-5;       // of the regulator's drop: nearer, it may go with it
-constexpr int kStepsMax = 20'000;    // from one command to the next
+// Of what a step may be off, explicit or implicit: those follow what changes slowly.
+constexpr double kTolerance = 1e-8, kStiffTolerance = 2e-7;
+constexpr double kEqual = 1e-12;   // nearer to the node's pressure, a chamber is at it
+constexpr double kFull = 1e-5;     // the same of the source's pressure
+constexpr double kNear = 3e-4;     // of the regulator's drop: nearer, it may go with it
+constexpr int kStepsMax = 20'000;  // from one command to the next
 
 bool HasTable(std::span<const model::FlowElement> elements) {
   return std::all_of(elements.begin(), elements.end(), [](const model::FlowElement& element) {
@@ -77,6 +78,7 @@ class SharedFilling {
       if (command.opens) {
         // A period that begins with nothing drawn repeats from the first on.
         one_period = one_period || (command.period == 1 && IsQuiet());
+        if (one_period && periods[0].size() == in_period) return WorstOf(periods[0]);
         if (command.period == 0 || !one_period) Open(command.group, command.period);
         continue;
       }
@@ -104,6 +106,7 @@ class SharedFilling {
     const auto norm = [this](std::span<const double> from, std::span<const double>,
                              std::span<const double> error) { return Norm(from, error); };
     bool restart = true;
+    int held_down = 0;
     for (int i = 0; i < kStepsMax && now_s_ < end_s && AnyDraws(); ++i) {
       if (stop && i % 64 == 0 && stop()) return false;
       if (restart) {
@@ -117,17 +120,26 @@ class SharedFilling {
       step_s = stepper_.next_step();
       state_.assign(stepper_.state().begin(), stepper_.state().end());
       SetReleased();
+      held_down = !restart && AnyHeldDown() ? held_down + 1 : 0;
+      if (held_down == kHeldDown) stepper_.BeStiff(rhs);
     }
     if (now_s_ < end_s && AnyDraws()) return false;
     now_s_ = end_s;
     return true;
   }
 
+  bool AnyHeldDown() const {
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (groups_[g].valve == Valve::kOpen &&
+          IsHeldDown(stepper_.step(), stepper_.derivative()[g], node_pa_ - stepper_.state()[g]))
+        return true;
+    return false;
+  }
+
   void SetReleased() {
     for (const auto& [g, pressure_pa] : released_) state_[g] = pressure_pa;
     released_.clear();
   }
-
   // Whether nothing is drawn and no stroke of the period has begun.
   bool IsQuiet() const { return opened_ == 0 && !AnyDraws(); }
 
@@ -174,7 +186,7 @@ class SharedFilling {
     for (std::size_t i = 0; i < from.size(); ++i)
       largest =
           std::max(largest, std::abs(error[i]) / std::max(kLeast * from[i], source_pa_ - from[i]));
-    return largest / kTolerance;
+    return largest / (stepper_.stiff() ? kStiffTolerance : kTolerance);
   }
 
   double PressureOf(std::size_t g) const {
@@ -267,8 +279,9 @@ class SharedFilling {
   double Behind(std::size_t g, double node_pa, double node_slope) const {
     const double flow =
         model::ContentSlope(*groups_[g].chamber, node_pa) * node_slope / content_per_volume_;
-    const double share = flow / Flow(g, node_pa, node_pa * (1.0 - kNear));
-    return kNear * node_pa * share * share;
+    constexpr double kProbe = 1e-5;
+    const double share = flow / Flow(g, node_pa, node_pa * (1.0 - kProbe));
+    return kProbe * node_pa * share * share;
   }
   double Behind(std::size_t g) const {
     return groups_[g].valve == Valve::kAtNode
@@ -366,7 +379,7 @@ class SharedFilling {
   std::vector<double> state_;  // chambers, node
   model::FlowTable regulator_;
   std::vector<Group> groups_;
-  model::DormandPrince stepper_;
+  StiffStepper stepper_;
   double node_pa_ = 0.0, node_before_pa_ = 0.0;           // where the last step began
   std::vector<std::pair<std::size_t, double>> released_;  // groups whose pressure is to be set
 };

@@ -19,8 +19,9 @@
 
 namespace plenum::optimizer {
 
-// Slowest rise and inflation of each group, to 1e-7, kNever beyond their window; none where an
-// element's law is another than that of ISO 6358-1 with the exponent ½, which tables do not hold.
+// Slowest rise and inflation of each group, to 1e-5 of them, kNever beyond their window; none where
+// an element's law is another than that of ISO 6358-1 with the exponent ½, which tables do not
+// hold.
 std::optional<Strokes> FillTogether(const Problem& problem, const Candidate& candidate,
                                     double source_pa);
 

@@ -11,6 +11,16 @@
 
 namespace plenum::optimizer {
 
+// Whether stability holds down an explicit step: a chamber comes closer to what fills it at the
+// rate λ = (dp/dt)/(2·behind), since its flow grows with the root of how far it is behind; the
+// other may come as much closer meanwhile. So many steps in a row are worth a change to implicit
+// ones.
+inline bool IsHeldDown(double step_s, double slope_pa_per_s, double behind_pa) {
+  constexpr double kStable = 0.5;  // |λ|·h
+  return behind_pa > 0.0 && slope_pa_per_s * step_s > 2.0 * kStable * behind_pa;
+}
+inline constexpr int kHeldDown = 15;
+
 class StiffStepper {
  public:
   explicit StiffStepper(std::size_t size) : explicit_(size), implicit_(size) {}

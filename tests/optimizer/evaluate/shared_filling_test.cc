@@ -83,6 +83,22 @@ TEST(SharedFillingTest, AsSimulated) {
   EXPECT_LT(count.unable, count.compared);
 }
 
+// Strokes that overlap and are all over before the period is: one period tells all.
+TEST(SharedFillingTest, AGaitThatComesToRestInEachPeriod) {
+  Count count;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Problem problem = Drawn(seed, 2);
+    problem.groups[0].gait.phases = {0.0};
+    problem.groups[1].gait.phases = {seed % 2 == 0 ? 0.5 : 0.25};  // up to the period's end; before
+    for (auto& group : problem.groups) group.count = 1;
+    problem.groups[0].gait.inflate_fraction = 0.6;
+    Compare(problem, count);
+  }
+  EXPECT_GT(count.compared, 20);
+  EXPECT_EQ(count.failed, 0);
+}
+
 // A chamber of 0.25 mL comes up to the node while one of 1 L fills; when the large one's valve
 // closes, the node jumps, and the small one is behind its own line again.
 TEST(SharedFillingTest, AChamberLeavesTheNodeWhereAValveCloses) {
