@@ -32,70 +32,39 @@ double ShareAt(const At& at, double value) {
   return high;
 }
 
-class ReservoirFilling {
- public:
-  explicit ReservoirFilling(std::span<const StrokeOfMany> strokes)
-      : strokes_(strokes),
-        in_(strokes.front().line),
-        content_per_volume_(model::kReferencePressurePa * in_.temperature_k /
-                            model::kReferenceTemperatureK),
-        valves_(strokes.size(), Valve::kOpen),
-        state_(strokes.size() + 1, 0.0),
-        stepper_(state_.size()) {
-    for (std::size_t g = 0; g < size(); ++g) state_[g] = line(g).from_pa;
-    state_[size()] = in_.start_pa > 0.0 ? in_.start_pa : in_.stop_pa;
-    found_.rise_s.assign(size(), model::kNever);
-    found_.inflate_s = found_.rise_s;
-    found_.chamber_end_pa.assign(size(), 0.0);
-    full_ = state_[size()] >= in_.stop_pa && Drawn(state_, in_.stop_pa) <= Delivered(in_.stop_pa);
-  }
+// The equations while valves stay as they are. A state: the chambers' pressures and the
+// reservoir's.
+struct Balance {
+  explicit Balance(std::span<const StrokeOfMany> all)
+      : strokes(all),
+        in(all.front().line),
+        content_per_volume(model::kReferencePressurePa * in.temperature_k /
+                           model::kReferenceTemperatureK),
+        valves(all.size(), Valve::kOpen) {}
 
-  ReservoirStrokes Run(const std::function<bool()>& stop) {
-    while (AnyOpen()) {
-      double end_s = model::kNever;
-      for (std::size_t g = 0; g < size(); ++g)
-        if (valves_[g] != Valve::kClosed) end_s = std::min(end_s, strokes_[g].window_s);
-      if (!Advance(end_s, stop)) return {};
-      for (std::size_t g = 0; g < size(); ++g)
-        if (valves_[g] != Valve::kClosed && strokes_[g].window_s <= now_s_) {
-          if (std::isinf(found_.inflate_s[g])) return Found();
-          Close(g);
-        }
-    }
-    return Found();
-  }
-
- private:
-  std::size_t size() const { return strokes_.size(); }
-  const model::ReservoirStrokeInput& line(std::size_t g) const { return strokes_[g].line; }
+  std::size_t size() const { return strokes.size(); }
+  const model::ReservoirStrokeInput& line(std::size_t g) const { return strokes[g].line; }
   bool holds(std::size_t g) const { return line(g).open_s == 0.0; }
   bool AnyOpen() const {
-    return std::any_of(valves_.begin(), valves_.end(),
+    return std::any_of(valves.begin(), valves.end(),
                        [](Valve valve) { return valve != Valve::kClosed; });
   }
   bool AnyFollows() const {
-    return std::any_of(valves_.begin(), valves_.end(),
+    return std::any_of(valves.begin(), valves.end(),
                        [](Valve valve) { return valve == Valve::kFollows; });
   }
   // Nothing changes any more until a window is over.
   bool AtRest() const {
-    return full_ && std::none_of(valves_.begin(), valves_.end(),
-                                 [](Valve valve) { return valve == Valve::kOpen; });
-  }
-
-  ReservoirStrokes Found() {
-    found_.done = true;
-    found_.end_s = now_s_;
-    found_.reservoir_end_pa = state_[size()];
-    return std::move(found_);
+    return full && std::none_of(valves.begin(), valves.end(),
+                                [](Valve valve) { return valve == Valve::kOpen; });
   }
 
   // Up to and including the highest pressure, which a pump still reaches.
   double Delivered(double reservoir_pa) const {
-    const model::MonotoneCurve& flow = in_.compressor->free_air_m3_per_s;
+    const model::MonotoneCurve& flow = in.compressor->free_air_m3_per_s;
     if (flow.empty()) return 0.0;
-    const double highest_pa = std::min(reservoir_pa, model::HighestPressure(*in_.compressor));
-    return in_.compressors * flow(std::max(flow.front(), highest_pa));
+    const double highest_pa = std::min(reservoir_pa, model::HighestPressure(*in.compressor));
+    return in.compressors * flow(std::max(flow.front(), highest_pa));
   }
   double Drawn(std::size_t g, double reservoir_pa, double chamber_pa) const {
     return chamber_pa < reservoir_pa ? line(g).count * line(g).fill->Flow(reservoir_pa, chamber_pa)
@@ -104,7 +73,7 @@ class ReservoirFilling {
   double Drawn(std::span<const double> y, double reservoir_pa) const {
     double drawn = 0.0;
     for (std::size_t g = 0; g < size(); ++g)
-      if (valves_[g] == Valve::kOpen) drawn += Drawn(g, reservoir_pa, y[g]);
+      if (valves[g] == Valve::kOpen) drawn += Drawn(g, reservoir_pa, y[g]);
     return drawn;
   }
 
@@ -112,7 +81,7 @@ class ReservoirFilling {
   double Room(std::span<const double> y) const {
     double room_m3 = 0.0;
     for (std::size_t g = 0; g < size(); ++g)
-      if (valves_[g] == Valve::kFollows)
+      if (valves[g] == Valve::kFollows)
         room_m3 += line(g).count * model::ContentSlope(*line(g).chamber, y[g]);
     return room_m3;
   }
@@ -121,45 +90,98 @@ class ReservoirFilling {
   double Settled(std::span<const double> y, double slope) const {
     double missing = 0.0;
     for (std::size_t g = 0; g < size(); ++g)
-      if (valves_[g] == Valve::kFollows)
+      if (valves[g] == Valve::kFollows)
         missing += line(g).count * model::ContentSlope(*line(g).chamber, y[g]) *
                    (Behind(g, y[size()], slope) - (y[size()] - y[g]));
-    return y[size()] + missing / (in_.volume_rising_m3 + Room(y));
+    return y[size()] + missing / (in.volume_rising_m3 + Room(y));
   }
   double ReservoirSlope(double delivered, double drawn, double room_m3) const {
     const double net = delivered - drawn;
-    return content_per_volume_ * net /
-           (net < 0.0 ? in_.volume_falling_m3 : in_.volume_rising_m3 + room_m3);
+    return content_per_volume * net /
+           (net < 0.0 ? in.volume_falling_m3 : in.volume_rising_m3 + room_m3);
   }
 
   void Slopes(std::span<const double> y, std::span<double> slopes) const {
     double reservoir_pa = y[size()], drawn = Drawn(y, reservoir_pa);
-    const double room_m3 = full_ ? 0.0 : Room(y);
+    const double room_m3 = full ? 0.0 : Room(y);
     if (room_m3 > 0.0) {
       reservoir_pa = Settled(y, ReservoirSlope(Delivered(reservoir_pa), drawn, room_m3));
       drawn = Drawn(y, reservoir_pa);
     }
-    slopes[size()] = full_ ? 0.0 : ReservoirSlope(Delivered(reservoir_pa), drawn, room_m3);
+    slopes[size()] = full ? 0.0 : ReservoirSlope(Delivered(reservoir_pa), drawn, room_m3);
     for (std::size_t g = 0; g < size(); ++g)
-      slopes[g] = valves_[g] == Valve::kClosed ? 0.0
-                  : valves_[g] == Valve::kFollows
+      slopes[g] = valves[g] == Valve::kClosed ? 0.0
+                  : valves[g] == Valve::kFollows
                       ? slopes[size()]
-                      : content_per_volume_ * Drawn(g, reservoir_pa, y[g]) /
+                      : content_per_volume * Drawn(g, reservoir_pa, y[g]) /
                             (line(g).count * model::ContentSlope(*line(g).chamber, y[g]));
+  }
+
+  // How far a chamber that rises with the reservoir is behind: its flow grows with the root of
+  // that.
+  double Behind(std::size_t g, double reservoir_pa, double slope) const {
+    constexpr double kSmall = 1e-8;
+    const model::ReservoirStrokeInput& of = line(g);
+    const double flow = model::ContentSlope(*of.chamber, reservoir_pa) * slope / content_per_volume;
+    const double head_pa = std::abs(reservoir_pa - model::MirrorPa(*of.chamber));
+    const double flow_per_root = head_pa * (*of.fill)(1.0 - kSmall) / std::sqrt(kSmall);
+    return head_pa * std::pow(std::max(0.0, flow) / flow_per_root, 2);
+  }
+
+  std::span<const StrokeOfMany> strokes;
+  const model::ReservoirStrokeInput& in;  // of the reservoir and its pumps
+  double content_per_volume;
+  std::vector<Valve> valves;
+  bool full = false;  // and the pumps cover the draw
+};
+
+class ReservoirFilling {
+ public:
+  explicit ReservoirFilling(std::span<const StrokeOfMany> strokes)
+      : rig_(strokes), state_(strokes.size() + 1, 0.0), stepper_(state_.size()) {
+    for (std::size_t g = 0; g < rig_.size(); ++g) state_[g] = rig_.line(g).from_pa;
+    state_[rig_.size()] = rig_.in.start_pa > 0.0 ? rig_.in.start_pa : rig_.in.stop_pa;
+    found_.rise_s.assign(rig_.size(), model::kNever);
+    found_.inflate_s = found_.rise_s;
+    found_.chamber_end_pa.assign(rig_.size(), 0.0);
+    rig_.full = state_[rig_.size()] >= rig_.in.stop_pa &&
+                rig_.Drawn(state_, rig_.in.stop_pa) <= rig_.Delivered(rig_.in.stop_pa);
+  }
+
+  ReservoirStrokes Run(const std::function<bool()>& stop) {
+    while (rig_.AnyOpen()) {
+      double end_s = model::kNever;
+      for (std::size_t g = 0; g < rig_.size(); ++g)
+        if (rig_.valves[g] != Valve::kClosed) end_s = std::min(end_s, rig_.strokes[g].window_s);
+      if (!Advance(end_s, stop)) return {};
+      for (std::size_t g = 0; g < rig_.size(); ++g)
+        if (rig_.valves[g] != Valve::kClosed && rig_.strokes[g].window_s <= now_s_) {
+          if (std::isinf(found_.inflate_s[g])) return Found();
+          Close(g);
+        }
+    }
+    return Found();
+  }
+
+ private:
+  ReservoirStrokes Found() {
+    found_.done = true;
+    found_.end_s = now_s_;
+    found_.reservoir_end_pa = state_[rig_.size()];
+    return std::move(found_);
   }
 
   double Norm(std::span<const double> from, std::span<const double> error) const {
     double largest = 0.0;
-    for (std::size_t i = 0; i < error.size(); ++i) {
+    for (std::size_t i = 0; i < error.size(); ++i)
       largest = std::max(largest, std::abs(error[i]) / from[i]);
-    }
     return largest / (stepper_.stiff() ? kStiffTolerance : kTolerance);
   }
 
   // To the end of the next window; false where that takes too many steps, or when stopped.
   bool Advance(double end_s, const std::function<bool()>& stop) {
     const auto rhs = [this](double, std::span<const double> y, std::span<double> slopes) {
-      Slopes(y, slopes);
+      rig_.Slopes(y, slopes);
     };
     const auto norm = [this](std::span<const double> from, std::span<const double>,
                              std::span<const double> error) { return Norm(from, error); };
@@ -167,7 +189,7 @@ class ReservoirFilling {
     bool restart = true;
     int held_down = 0;
     SetReleased();
-    for (int i = 0; now_s_ < end_s && AnyOpen() && !AtRest(); ++i) {
+    for (int i = 0; now_s_ < end_s && rig_.AnyOpen() && !rig_.AtRest(); ++i) {
       if (i == kStepsMax || (stop && i % 64 == 0 && stop())) return false;
       if (restart) stepper_.Start(rhs, now_s_, state_, step_s);
       if (stepper_.Step(rhs, end_s - now_s_, norm) == model::StepResult::kNotFinite) return false;
@@ -176,18 +198,19 @@ class ReservoirFilling {
       step_s = stepper_.next_step();
       state_.assign(stepper_.state().begin(), stepper_.state().end());
       SetReleased();
-      if (full_) state_[size()] = in_.stop_pa;
+      if (rig_.full) state_[rig_.size()] = rig_.in.stop_pa;
       held_down = !restart && AnyHeldDown() ? held_down + 1 : 0;
       if (held_down == kHeldDown) stepper_.BeStiff(rhs);
     }
-    if (AnyOpen()) now_s_ = end_s;
+    if (rig_.AnyOpen()) now_s_ = end_s;
     return true;
   }
 
   bool AnyHeldDown() const {
-    for (std::size_t g = 0; g < size(); ++g)
-      if (valves_[g] == Valve::kOpen && IsHeldDown(stepper_.step(), stepper_.derivative()[g],
-                                                   stepper_.state()[size()] - stepper_.state()[g]))
+    for (std::size_t g = 0; g < rig_.size(); ++g)
+      if (rig_.valves[g] == Valve::kOpen &&
+          IsHeldDown(stepper_.step(), stepper_.derivative()[g],
+                     stepper_.state()[rig_.size()] - stepper_.state()[g]))
         return true;
     return false;
   }
@@ -197,33 +220,23 @@ class ReservoirFilling {
     set_.clear();
   }
 
-  // How far a chamber that rises with the reservoir is behind: its flow grows with the root of
-  // that.
-  double Behind(std::size_t g, double reservoir_pa, double slope) const {
-    constexpr double kSmall = 1e-8;
-    const model::ReservoirStrokeInput& in = line(g);
-    const double flow =
-        model::ContentSlope(*in.chamber, reservoir_pa) * slope / content_per_volume_;
-    const double head_pa = std::abs(reservoir_pa - model::MirrorPa(*in.chamber));
-    const double flow_per_root = head_pa * (*in.fill)(1.0 - kSmall) / std::sqrt(kSmall);
-    return head_pa * std::pow(std::max(0.0, flow) / flow_per_root, 2);
-  }
   // The reservoir's pressure after a share of the last step.
   double ReservoirAt(double share) const {
-    if (full_) return in_.stop_pa;
-    return AnyFollows() ? Settled(StateAt(share), Slope()) : stepper_.At(share, size());
+    if (rig_.full) return rig_.in.stop_pa;
+    return rig_.AnyFollows() ? rig_.Settled(StateAt(share), Slope())
+                             : stepper_.At(share, rig_.size());
   }
   std::vector<double> StateAt(double share) const {  // in the last step
-    std::vector<double> y(size() + 1);
-    for (std::size_t i = 0; i <= size(); ++i) y[i] = stepper_.At(share, i);
+    std::vector<double> y(rig_.size() + 1);
+    for (std::size_t i = 0; i <= rig_.size(); ++i) y[i] = stepper_.At(share, i);
     return y;
   }
-  double Slope() const { return full_ ? 0.0 : stepper_.derivative()[size()]; }
+  double Slope() const { return rig_.full ? 0.0 : stepper_.derivative()[rig_.size()]; }
   // Pressure of a chamber after a share of the last step.
   double PressureAt(std::size_t g, double share) const {
-    if (valves_[g] != Valve::kFollows) return stepper_.At(share, g);
+    if (rig_.valves[g] != Valve::kFollows) return stepper_.At(share, g);
     const double reservoir_pa = ReservoirAt(share);
-    return reservoir_pa - Behind(g, reservoir_pa, Slope());
+    return reservoir_pa - rig_.Behind(g, reservoir_pa, Slope());
   }
   // Time, energy and air of the pumps in the last step, by the rule of Gauss.
   void CountPumps() {
@@ -231,12 +244,15 @@ class ReservoirFilling {
     constexpr double kShares[] = {0.5 - kAside, 0.5, 0.5 + kAside};
     constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
     for (int i = 0; i < 3; ++i) {
-      const double reservoir_pa = ReservoirAt(kShares[i]), delivered = Delivered(reservoir_pa);
+      const double reservoir_pa = ReservoirAt(kShares[i]), delivered = rig_.Delivered(reservoir_pa);
       double on_s = kWeights[i] * stepper_.step();
-      if (full_) on_s *= Drawn(StateAt(kShares[i]), reservoir_pa) / delivered;
+      if (rig_.full) {  // they cover the draw
+        const double drawn = rig_.Drawn(StateAt(kShares[i]), reservoir_pa);
+        on_s *= drawn > 0.0 ? drawn / delivered : 0.0;
+      }
       found_.pump_on_s += on_s;
       found_.pump_energy_j +=
-          on_s * in_.compressors * model::ElectricalPower(*in_.compressor, reservoir_pa);
+          on_s * rig_.in.compressors * model::ElectricalPower(*rig_.in.compressor, reservoir_pa);
       found_.pump_air_m3 += on_s * delivered;
     }
   }
@@ -252,30 +268,32 @@ class ReservoirFilling {
   bool Meet(const Rhs& rhs) {
     double share = 1.0;
     bool fills = false;
-    std::size_t closes = size();
-    if (!full_ && stepper_.state()[size()] >= in_.stop_pa && stepper_.derivative()[size()] > 0.0) {
+    std::size_t closes = rig_.size();
+    if (!rig_.full && stepper_.state()[rig_.size()] >= rig_.in.stop_pa &&
+        stepper_.derivative()[rig_.size()] > 0.0) {
       fills = true;
-      share = ShareAt([&](double at) { return stepper_.At(at, size()); }, in_.stop_pa);
+      share = ShareAt([&](double at) { return stepper_.At(at, rig_.size()); }, rig_.in.stop_pa);
     }
-    for (std::size_t g = 0; g < size(); ++g) {
-      if (!holds(g) || valves_[g] == Valve::kClosed || PressureNow(g) < line(g).operating_pa)
+    for (std::size_t g = 0; g < rig_.size(); ++g) {
+      if (!rig_.holds(g) || rig_.valves[g] == Valve::kClosed ||
+          PressureNow(g) < rig_.line(g).operating_pa)
         continue;
-      const double at = ShareOf(g, line(g).operating_pa);
-      if (at > share || (at == share && closes < size())) continue;
+      const double at = ShareOf(g, rig_.line(g).operating_pa);
+      if (at > share || (at == share && closes < rig_.size())) continue;
       closes = g;
       fills = fills && at == share;
       share = at;
     }
     if (share < 1.0) stepper_.Shorten(rhs, share);
     CountPumps();
-    for (std::size_t g = 0; g < size(); ++g) {
-      if (valves_[g] == Valve::kClosed) continue;
-      Note(g, line(g).target_pa, g == closes, found_.rise_s[g]);
-      Note(g, line(g).operating_pa, g == closes, found_.inflate_s[g]);
+    for (std::size_t g = 0; g < rig_.size(); ++g) {
+      if (rig_.valves[g] == Valve::kClosed) continue;
+      Note(g, rig_.line(g).target_pa, g == closes, found_.rise_s[g]);
+      Note(g, rig_.line(g).operating_pa, g == closes, found_.inflate_s[g]);
     }
     if (fills) Release();
-    full_ = full_ || fills;
-    if (closes < size()) {
+    rig_.full = rig_.full || fills;
+    if (closes < rig_.size()) {
       Close(closes);
       return true;
     }
@@ -289,54 +307,52 @@ class ReservoirFilling {
 
   // The reservoir goes on at another pace: chambers that rose with it are behind again, or ahead.
   void Release() {
-    if (!AnyFollows()) return;
-    for (std::size_t g = 0; g < size(); ++g)
-      if (valves_[g] == Valve::kFollows) set_.emplace_back(g, PressureNow(g));
-    set_.emplace_back(size(), ReservoirAt(1.0));
-    std::replace(valves_.begin(), valves_.end(), Valve::kFollows, Valve::kOpen);
+    if (!rig_.AnyFollows()) return;
+    for (std::size_t g = 0; g < rig_.size(); ++g)
+      if (rig_.valves[g] == Valve::kFollows) set_.emplace_back(g, PressureNow(g));
+    set_.emplace_back(rig_.size(), ReservoirAt(1.0));
+    std::replace(rig_.valves.begin(), rig_.valves.end(), Valve::kFollows, Valve::kOpen);
   }
   void Close(std::size_t g) {
-    found_.chamber_end_pa[g] = holds(g) ? line(g).operating_pa : PressureOf(g);
+    found_.chamber_end_pa[g] = rig_.holds(g) ? rig_.line(g).operating_pa : PressureOf(g);
     Release();
-    valves_[g] = Valve::kClosed;
+    rig_.valves[g] = Valve::kClosed;
   }
   double PressureOf(std::size_t g) const {
-    return valves_[g] != Valve::kFollows ? state_[g] : AtRest() ? in_.stop_pa : PressureNow(g);
+    return rig_.valves[g] != Valve::kFollows ? state_[g]
+           : rig_.AtRest()                   ? rig_.in.stop_pa
+                                             : PressureNow(g);
   }
 
   // Lets chambers that have come up to the reservoir rise with it; true where some do, or where it
   // falls again.
   bool Follow() {
-    const double reservoir_pa = stepper_.state()[size()];
+    const double reservoir_pa = stepper_.state()[rig_.size()];
     const double slope = Slope();
-    const bool follows = AnyFollows();
+    const bool follows = rig_.AnyFollows();
     if (slope < 0.0) {
       if (follows) Release();
       return follows;
     }
     bool changed = false;
-    for (std::size_t g = 0; g < size(); ++g) {
-      if (valves_[g] != Valve::kOpen) continue;
+    for (std::size_t g = 0; g < rig_.size(); ++g) {
+      if (rig_.valves[g] != Valve::kOpen) continue;
       const double behind_pa = reservoir_pa - stepper_.state()[g];
-      const double settled_pa = Behind(g, reservoir_pa, slope);
+      const double settled_pa = rig_.Behind(g, reservoir_pa, slope);
       const double off_pa =
           std::max(kEqual * reservoir_pa, std::min(0.1 * settled_pa, kSettled * reservoir_pa));
       if (std::max(behind_pa, settled_pa) <= kNearlyEqual * reservoir_pa &&
           std::abs(behind_pa - settled_pa) <= off_pa) {
-        valves_[g] = Valve::kFollows;
+        rig_.valves[g] = Valve::kFollows;
         changed = true;
       }
     }
     return changed;
   }
 
-  std::span<const StrokeOfMany> strokes_;
-  const model::ReservoirStrokeInput& in_;  // of the reservoir and its pumps
-  double content_per_volume_;
-  std::vector<Valve> valves_;
+  Balance rig_;
   std::vector<double> state_;  // chambers, and what is beside them
   StiffStepper stepper_;
-  bool full_ = false;  // and the pumps cover the draw
   double now_s_ = 0.0;
   std::vector<std::pair<std::size_t, double>> set_;  // chambers whose pressure is to be set
   ReservoirStrokes found_;
