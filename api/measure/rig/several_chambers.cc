@@ -111,6 +111,7 @@ Several ReadSeveral(Reader& rig, const model::Ambient& ambient) {
     rig.Fail("junction_volume_ml", "is for chambers side by side");
   for (const Element& element : rig.List("chambers", 2, calibration::kChambersMax))
     several.all.push_back(ReadOne(Reader(element, rig.errors()), ambient, several));
+  if (several.all.size() <= several.first()) return {};  // not one could be read
   several.gauge = several.first();
   if (!rig.Has("pressure_of")) return several;
   const std::string of = rig.Text("pressure_of");
@@ -128,10 +129,10 @@ ChamberReadings ReadChamberChannels(
     Reader& channels, const Several& several,
     const std::function<std::vector<double>(Reader&, const std::string&)>& read) {
   ChamberReadings readings(several.all.size());
-  channels.Describe(
-      "chambers", {{"type", "object"},
-                   {"additionalProperties",
-                    {{"type", "array"}, {"items", {{"type", Json::array({"number", "null"})}}}}}});
+  channels.Describe("chambers", {{"type", "object"},
+                                 {"additionalProperties",
+                                  {{"type", Json::array({"array", "null"})},
+                                   {"items", {{"type", Json::array({"number", "null"})}}}}}});
   auto chambers = channels.OptionalObject("chambers");
   if (!chambers) return readings;
   if (several.empty()) channels.Fail("chambers", "must be left out: the rig has one chamber");

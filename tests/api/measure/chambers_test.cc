@@ -233,6 +233,7 @@ TEST(Chambers, WhatDoesNotFitIsSaid) {
     return DetailAt(ErrorsOf(ParseMeasurement(document)), at);
   };
   const auto holds = [](const std::string& text, const char* part) {
+    EXPECT_FALSE(text.empty());
     EXPECT_NE(text.find(part), std::string::npos) << "\"" << text << "\" has no " << part;
   };
   const Json actuator = {{"rest_volume_ml", 1}};
@@ -243,13 +244,19 @@ TEST(Chambers, WhatDoesNotFitIsSaid) {
   holds(error("/rig/chambers/0/line", good["rig"]["line"], "/rig/chambers/0/line"), "left out");
   holds(error("/rig/junction_volume_ml", 2, "/rig/junction_volume_ml"), "side by side");
   holds(error("/rig/pressure_of", "top", "/rig/pressure_of"), "name of a chamber");
+  for (const char* arrangement : {"row", "side_by_side"})
+    for (const Json& unread : {Json("base"), Json(0.5), Json::array(), Json::object()}) {
+      Json document = good;
+      document["rig"]["arrangement"] = arrangement;
+      document["rig"]["chambers"] = unread;
+      holds(DetailAt(ErrorsOf(ParseMeasurement(document)), "/rig/chambers"), "");
+    }
   holds(error("/runs/0/channels/chambers/base", Json::array(), "/runs/0/channels/chambers/base"),
         "pressure_kpa_gauge");
   holds(error("/runs/0/channels/chambers/top", Json::array(), "/runs/0/channels/chambers/top"), "");
   holds(error("/runs/0/specimen", "one", "/runs"), "specimens");
   holds(error("/runs/0/volume", "imposed", "/runs/0/volume"), "free");
-  holds(error("/runs/1/rig", {{"chambers", good["rig"]["chambers"]}}, "/runs/1/rig"), "");
-  holds(error("/runs/0/channels/chambers/middle/3", 400, "/runs/0/channels/chambers/middle"), "");
+  holds(error("/runs/0/channels/chambers/middle/3", "x", "/runs/0/channels/chambers/middle/3"), "");
   Json short_one = good;
   short_one["runs"][0]["channels"]["chambers"]["middle"] = {1.0, 2.0};
   holds(DetailAt(ErrorsOf(ParseMeasurement(short_one)), "/runs/0/channels/chambers/middle"),
