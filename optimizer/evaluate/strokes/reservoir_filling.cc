@@ -187,7 +187,6 @@ class ReservoirFilling {
                              std::span<const double> error) { return Norm(from, error); };
     double step_s = kFirstStep * (end_s - now_s_);
     bool restart = true;
-    int held_down = 0;
     SetReleased();
     for (int i = 0; now_s_ < end_s && rig_.AnyOpen() && !rig_.AtRest(); ++i) {
       if (i == kStepsMax || (stop && i % 64 == 0 && stop())) return false;
@@ -199,8 +198,7 @@ class ReservoirFilling {
       state_.assign(stepper_.state().begin(), stepper_.state().end());
       SetReleased();
       if (rig_.full) state_[rig_.size()] = rig_.in.stop_pa;
-      held_down = !restart && AnyHeldDown() ? held_down + 1 : 0;
-      if (held_down == kHeldDown) stepper_.BeStiff(rhs);
+      stepper_.CountHeldDown(!restart && AnyHeldDown(), rhs);
     }
     if (rig_.AnyOpen()) now_s_ = end_s;
     return true;

@@ -106,7 +106,6 @@ class SharedFilling {
     const auto norm = [this](std::span<const double> from, std::span<const double>,
                              std::span<const double> error) { return Norm(from, error); };
     bool restart = true;
-    int held_down = 0;
     for (int i = 0; i < kStepsMax && now_s_ < end_s && AnyDraws(); ++i) {
       if (stop && i % 64 == 0 && stop()) return false;
       if (restart) {
@@ -120,8 +119,7 @@ class SharedFilling {
       step_s = stepper_.next_step();
       state_.assign(stepper_.state().begin(), stepper_.state().end());
       SetReleased();
-      held_down = !restart && AnyHeldDown() ? held_down + 1 : 0;
-      if (held_down == kHeldDown) stepper_.BeStiff(rhs);
+      stepper_.CountHeldDown(!restart && AnyHeldDown(), rhs);
     }
     if (now_s_ < end_s && AnyDraws()) return false;
     now_s_ = end_s;
@@ -140,6 +138,7 @@ class SharedFilling {
     for (const auto& [g, pressure_pa] : released_) state_[g] = pressure_pa;
     released_.clear();
   }
+
   // Whether nothing is drawn and no stroke of the period has begun.
   bool IsQuiet() const { return opened_ == 0 && !AnyDraws(); }
 

@@ -13,13 +13,11 @@ namespace plenum::optimizer {
 
 // Whether stability holds down an explicit step: a chamber comes closer to what fills it at the
 // rate λ = (dp/dt)/(2·behind), since its flow grows with the root of how far it is behind; the
-// other may come as much closer meanwhile. So many steps in a row are worth a change to implicit
-// ones.
+// other may come as much closer meanwhile.
 inline bool IsHeldDown(double step_s, double slope_pa_per_s, double behind_pa) {
   constexpr double kStable = 0.5;  // |λ|·h
   return behind_pa > 0.0 && slope_pa_per_s * step_s > 2.0 * kStable * behind_pa;
 }
-inline constexpr int kHeldDown = 15;
 
 class StiffStepper {
  public:
@@ -28,6 +26,7 @@ class StiffStepper {
   template <class Rhs>
   void Start(const Rhs& rhs, double t, std::span<const double> y, double step_s) {
     stiff_ = false;
+    held_down_ = 0;
     explicit_.Start(rhs, t, y, step_s);
   }
   template <class Rhs, class Norm>
@@ -35,10 +34,13 @@ class StiffStepper {
     return stiff_ ? implicit_.Step(rhs, step_max_s, norm) : explicit_.Step(rhs, step_max_s, norm);
   }
   bool stiff() const { return stiff_; }
-  // Goes on by implicit steps until the next start.
+  // Told after each step whether stability held it down: after so many in a row steps are implicit
+  // until the next start.
   template <class Rhs>
-  void BeStiff(const Rhs& rhs) {
-    if (stiff_) return;
+  void CountHeldDown(bool held_down, const Rhs& rhs) {
+    constexpr int kInARow = 15;
+    held_down_ = held_down ? held_down_ + 1 : 0;
+    if (stiff_ || held_down_ < kInARow) return;
     implicit_.Start(rhs, explicit_.time(), explicit_.state(), explicit_.next_step());
     stiff_ = true;
   }
@@ -62,6 +64,7 @@ class StiffStepper {
   model::DormandPrince explicit_;
   model::RosenbrockOf<double> implicit_;
   bool stiff_ = false;
+  int held_down_ = 0;  // steps in a row
 };
 
 }  // namespace plenum::optimizer

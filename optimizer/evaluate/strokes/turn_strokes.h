@@ -25,7 +25,8 @@ std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& c
 std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point);
 
-// The periodic state of such bursts, as exact as reservoir_filling.h.
+// The periodic state of such bursts, as exact as reservoir_filling.h; none where FirstAtOnce() has
+// none.
 std::optional<Strokes> StrokesAtOnce(const Problem& problem, const Candidate& candidate,
                                      const OperatingPoint& point);
 
