@@ -77,6 +77,16 @@ bool ExpectAsEnumerated(const optimizer::Problem& problem, const See& see) {
   return expected > 0;
 }
 
+// Of problems that are compared so.
+struct Compared {
+  int feasible = 0, infeasible = 0, designs = 0;
+};
+inline void CompareLists(const optimizer::Problem& problem, Compared& compared) {
+  const bool found = ExpectAsEnumerated(
+      problem, [&](const optimizer::Design&, const Enumerated&) { ++compared.designs; });
+  ++(found ? compared.feasible : compared.infeasible);
+}
+
 }  // namespace plenum::test
 
 #endif  // PLENUM_TESTS_SUPPORT_ENUMERATED_SEARCH_H_

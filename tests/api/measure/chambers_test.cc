@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "api/measure/curves.h"
-#include "api/measure/diagnose_request.h"
-#include "tests/api/measure/read_dataset.h"
+#include "api/measure/measurement.h"
+#include "tests/api/measure/diagnosed.h"
 #include "tests/api/support.h"
 #include "tests/support/chambers/chamber_net.h"
 
@@ -122,26 +121,6 @@ Json Bench(const Json& rig, const ChamberNet& net, const std::vector<std::string
       Json::array({RunOf("r1", 150, 0.8, net, gauges), RunOf("r2", 220, 0.5, net, gauges),
                    RunOf("r3", 180, 0.6, net, gauges)});
   return document;
-}
-
-Json DiagnosedOf(const Json& measurement) {
-  DiagnosisRequest request;
-  request.dataset = Read(measurement);
-  request.measurement = measurement;
-  return Parse(RunDiagnosis(request, {}).answer.dump());
-}
-
-void ExpectCurvesAsStated(const Json& answer) {
-  for (const char* model : {"declared", "before", "after"}) {
-    const Parsed<Json> curves =
-        RunCurves({{"schema", "simulation/1"}, {"from", answer}, {"model", model}});
-    ASSERT_TRUE(std::holds_alternative<Json>(curves))
-        << DetailAt(ErrorsOf(curves), "/from") << DetailAt(ErrorsOf(curves), "/from/after");
-    for (const Json& run : std::get<Json>(curves).at("runs"))
-      EXPECT_NEAR(run.at("rms_kpa").get<double>(), run.at("stated_rms_kpa").get<double>(),
-                  1e-6 * run.at("stated_rms_kpa").get<double>())
-          << model << " " << run.at("id");
-  }
 }
 
 const std::vector<std::string> kInARow = {"base", "middle", ""};

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "api/measure/curves.h"
-#include "api/measure/diagnose_request.h"
-#include "tests/api/measure/read_dataset.h"
+#include "api/measure/measurement.h"
+#include "tests/api/measure/diagnosed.h"
 #include "tests/api/support.h"
 #include "tests/support/chambers/chamber_net.h"
 
@@ -62,25 +61,6 @@ Json Bench(const Truth& truth) {
   document["runs"] = Json::array({RunOf("r1", -60, 2.0, truth), RunOf("r2", -80, 0.8, truth),
                                   RunOf("r3", -70, 1.2, truth), RunOf("r4", -75, 0.6, truth)});
   return document;
-}
-
-Json DiagnosedOf(const Json& measurement) {
-  DiagnosisRequest request;
-  request.dataset = Read(measurement);
-  request.measurement = measurement;
-  return Parse(RunDiagnosis(request, {}).answer.dump());
-}
-
-void ExpectCurvesAsStated(const Json& answer) {
-  for (const char* model : {"declared", "before", "after"}) {
-    const Parsed<Json> curves =
-        RunCurves({{"schema", "simulation/1"}, {"from", answer}, {"model", model}});
-    ASSERT_TRUE(std::holds_alternative<Json>(curves));
-    for (const Json& run : std::get<Json>(curves).at("runs"))
-      EXPECT_NEAR(run.at("rms_kpa").get<double>(), run.at("stated_rms_kpa").get<double>(),
-                  1e-6 * run.at("stated_rms_kpa").get<double>())
-          << model << " " << run.at("id");
-  }
 }
 
 TEST(Evacuated, AsDeclaredIsAdequate) {

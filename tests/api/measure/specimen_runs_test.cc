@@ -11,8 +11,8 @@
 
 #include "api/measure/csv/measurement_csv.h"
 #include "api/measure/curves.h"
-#include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
+#include "tests/api/measure/diagnosed.h"
 #include "tests/api/measure/read_dataset.h"
 #include "tests/api/support.h"
 #include "tests/support/effects/effect_form.h"
@@ -62,13 +62,6 @@ Json Bench(std::vector<Json> runs) {
 Json ThreePieces() {
   return Bench({RunOf("r1", "thin", 0.9, false), RunOf("r2", "thick", 1.1, false),
                 RunOf("r3", "thin", 0.9, true), RunOf("r4", "", 1.0, false)});
-}
-
-Json DiagnosedOf(const Json& measurement) {
-  DiagnosisRequest request;
-  request.dataset = Read(measurement);
-  request.measurement = measurement;
-  return Parse(RunDiagnosis(request, {}).answer.dump());
 }
 
 Json CurvesFrom(const Json& answer, const std::string& model, const std::string& run) {

@@ -32,21 +32,11 @@ Problem Drawn(std::uint64_t seed, int groups = 1, bool simultaneous = true) {
   return RailProblem(draw);
 }
 
-struct Tally {
-  int feasible = 0, infeasible = 0, designs = 0;
-};
-
-void Compare(const Problem& problem, Tally& tally) {
-  const bool found =
-      ExpectAsEnumerated(problem, [&](const Design&, const Enumerated&) { ++tally.designs; });
-  ++(found ? tally.feasible : tally.infeasible);
-}
-
 TEST(RailSearch, ListsWhatEnumerationLists) {
-  Tally tally;
+  Compared tally;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
-    Compare(Drawn(seed), tally);
+    CompareLists(Drawn(seed), tally);
   }
   EXPECT_GT(tally.feasible, 30);
   EXPECT_GT(tally.infeasible, 3);
@@ -54,10 +44,10 @@ TEST(RailSearch, ListsWhatEnumerationLists) {
 }
 
 TEST(RailSearch, GroupsAtOnceAndOneAfterAnother) {
-  Tally tally;
+  Compared tally;
   for (int seed = 1; seed <= Draws(24); ++seed) {
     SCOPED_TRACE(seed);
-    Compare(Drawn(300 + seed, 2, seed % 2 == 0), tally);
+    CompareLists(Drawn(300 + seed, 2, seed % 2 == 0), tally);
   }
   EXPECT_GT(tally.feasible, Draws(6));
 }
@@ -65,24 +55,24 @@ TEST(RailSearch, GroupsAtOnceAndOneAfterAnother) {
 TEST(RailSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
   constexpr optimizer::Objective kObjectives[] = {
       {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.5}};
-  Tally tally;
+  Compared tally;
   for (int seed = 1; seed <= Draws(16); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(500 + seed);
     problem.objective = kObjectives[seed % 4];
-    Compare(problem, tally);
+    CompareLists(problem, tally);
   }
   EXPECT_GT(tally.feasible, Draws(5));
 }
 
 TEST(RailSearch, ListsWhatEnumerationListsOfGaits) {
-  Tally tally;
+  Compared tally;
   for (int seed = 1; seed <= Draws(12); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(1100 + seed, 1 + seed % 2, seed % 3 != 0);
     Random random(seed);
     DrawGaits(random, problem);
-    Compare(problem, tally);
+    CompareLists(problem, tally);
   }
   EXPECT_GT(tally.feasible, Draws(3));
 }

@@ -36,21 +36,11 @@ Problem Drawn(std::uint64_t seed, std::set<Configuration> configurations, int gr
   return problem;
 }
 
-struct Tally {
-  int feasible = 0, infeasible = 0, designs = 0;
-};
-
-void Compare(const Problem& problem, Tally& tally) {
-  const bool found =
-      ExpectAsEnumerated(problem, [&](const Design&, const Enumerated&) { ++tally.designs; });
-  ++(found ? tally.feasible : tally.infeasible);
-}
-
 TEST(VacuumSearch, ListsWhatEnumerationLists) {
-  Tally tally;
+  Compared tally;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
-    Compare(Drawn(seed, {kReservoir}), tally);
+    CompareLists(Drawn(seed, {kReservoir}), tally);
   }
   EXPECT_GT(tally.feasible, 30);
   EXPECT_GT(tally.infeasible, 3);
@@ -58,10 +48,10 @@ TEST(VacuumSearch, ListsWhatEnumerationLists) {
 }
 
 TEST(VacuumSearch, ListsPumpsAloneAsEnumerationDoes) {
-  Tally tally;
+  Compared tally;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    Compare(Drawn(200 + seed, {kDirect}), tally);
+    CompareLists(Drawn(200 + seed, {kDirect}), tally);
   }
   EXPECT_GT(tally.feasible, 10);
   EXPECT_GT(tally.infeasible, 2);
@@ -70,7 +60,7 @@ TEST(VacuumSearch, ListsPumpsAloneAsEnumerationDoes) {
 TEST(VacuumSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
   constexpr optimizer::Objective kObjectives[] = {
       {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.5}};
-  Tally tally;
+  Compared tally;
   for (int seed = 1; seed <= Draws(16); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(300 + seed, {kReservoir, kDirect});
@@ -78,19 +68,19 @@ TEST(VacuumSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
     const BruteForce all = Enumerate(problem);
     if (all.designs.empty()) continue;
     if (seed % 3 == 0) problem.mass_max_kg = 1.2 * all.designs[0].mass_kg + 0.3;
-    Compare(problem, tally);
+    CompareLists(problem, tally);
   }
   EXPECT_GT(tally.feasible, Draws(5));
 }
 
 TEST(VacuumSearch, GroupsAtOnceAndOneAfterAnother) {
-  Tally tally;
+  Compared tally;
   for (int seed = 1; seed <= Draws(12); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(400 + seed, {kReservoir}, 2, seed % 2 == 0);
     problem.limits.batteries = problem.limits.compressors = 1;
     problem.parts.tubing.resize(1);
-    Compare(problem, tally);
+    CompareLists(problem, tally);
   }
   EXPECT_GT(tally.feasible, Draws(3));
 }
