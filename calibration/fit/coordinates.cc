@@ -18,7 +18,6 @@ constexpr double kLeastFactor = 0.05, kMostFactor = 20.0;  // of a number known 
 constexpr double kUnknownSpan = 14.0;                      // e-folds either way
 constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
 constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
-constexpr double kClockRoom = 1.0;                         // intervals before the first stroke
 constexpr double kStroked = 0.05;         // gauge, of the operating pressure: a stroke came before
 constexpr double kRoomOfStroke = 0.9;     // of the time to the next command
 constexpr double kPressureStepPa = 1e3;   // scale of an initial pressure
@@ -358,7 +357,7 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
   for (const std::size_t i : runs) {
     const double interval_s = IntervalOf(dataset.runs[i]);
     const double room_s = FirstStrokeAfter(dataset.runs[i]);
-    if (!clocks || !(room_s >= kClockRoom * interval_s)) continue;
+    if (!clocks || !(room_s > 0.0)) continue;
     Coordinate coordinate;
     coordinate.parameter = {.kind = Parameter::Kind::kClock, .run = i};
     coordinate.scale = interval_s / std::sqrt(12.0);

@@ -54,8 +54,9 @@ TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted);
 // specimen has stands for each specimen of these runs; one that is freed
 // has no prior, and the scale of its uncertainty or, declared exact, kExactUncertainty. With
 // `clocks`, each run's clock too: commands fall between samples, so that the prior is that of a
-// time rounded to the sampling, 1/√12 of the interval. Not of a run that begins with a stroke
-// within a sample.
+// time rounded to the sampling, 1/√12 of the interval. It makes a stroke early by no more than the
+// time from the run's start to the first, and is fixed where a run begins with one: few readings
+// have their first stroke within a sample of the start.
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
                                         const std::vector<std::size_t>& runs, bool clocks,
                                         const Freed& freed = {});
