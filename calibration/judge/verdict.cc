@@ -63,7 +63,8 @@ double UnexplainedFraction(const Leftover& before, const Leftover& after) {
 Verdict Judge(const Evidence& evidence) {
   if (!evidence.complete) return Verdict::kUndecided;
   if (!evidence.accepted)
-    return IsNoise(evidence.before) ? Verdict::kAdequate : Verdict::kUnexplained;
+    return IsNoise(evidence.before) && evidence.before.priors_hold ? Verdict::kAdequate
+                                                                   : Verdict::kUnexplained;
   const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
   const bool imitation = evidence.imitated || !evidence.after.priors_hold ||
                          PredictsWorse(evidence.before, evidence.after);
@@ -89,12 +90,13 @@ std::string DoubtOf(const Evidence& evidence) {
 std::string WhatIsOpen(const Evidence& evidence) {
   const Leftover& after = evidence.after;
   const std::string structure = "structure is left that no known effect accounts for";
+  const std::string beyond = "declared numbers are beyond their uncertainties";
   if (!PassesTests(after.residual)) return structure;
   if (after.learnable_bic > kAccept)
     return "a term that has no name would take up part of what looks like noise";
-  if (!evidence.accepted) return structure;
+  if (!evidence.accepted) return after.priors_hold ? structure : beyond;
   if (!HoldsOut(after)) return "runs that no fit saw are off by more than their noise";
-  if (!after.priors_hold) return "declared numbers are beyond their uncertainties";
+  if (!after.priors_hold) return beyond;
   if (after.rough_noise) return "the noise is not known well enough to say that only noise is left";
   return structure;
 }

@@ -54,13 +54,14 @@ struct Evidence {
 };
 
 // In this order: kUndecided if not complete. Without an accepted effect kAdequate if the base model
-// leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
-// neither noise nor small (kLeftOver, kNegligible), where runs that the fit did not see are off
-// by more than √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what
-// is missing: where the noise is rough it leaves more than kEstablished of the base model's error,
-// it needs declared numbers beyond their uncertainties, one term of unknown cause does
-// what it takes several effects for, or it predicts worse than the base model. Then kTie if others
-// are as good; else kExplained.
+// leaves noise alone with declared numbers within their uncertainties, else kUnexplained. With one,
+// kUnexplained where structure is left that is neither noise nor small (kLeftOver, kNegligible),
+// where runs that the fit did not see are off by more than
+// √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what is missing:
+// where the noise is rough it leaves more than kEstablished of the base model's error, it needs
+// declared numbers beyond their uncertainties, one term of unknown cause does what it takes several
+// effects for, or it predicts worse than the base model. Then kTie if others are as good; else
+// kExplained.
 Verdict Judge(const Evidence& evidence);
 
 // Whether it says what is missing.

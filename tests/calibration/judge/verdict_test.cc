@@ -52,6 +52,15 @@ TEST(Verdict, ASetThatOnlyImitatesIsNotNamed) {
   EXPECT_FALSE(IsTieBesideStructure(tie));
 }
 
+// What is missing may hide in them, and leave nothing but noise.
+TEST(Verdict, AModelIsNotGoodEnoughWithNumbersBeyondTheirUncertainties) {
+  Leftover stretched = Noise();
+  stretched.priors_hold = false;
+  const Evidence evidence{true, false, 0, stretched, stretched};
+  EXPECT_EQ(Judge(evidence), Verdict::kUnexplained);
+  EXPECT_EQ(WhatIsOpen(evidence), "declared numbers are beyond their uncertainties");
+}
+
 TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
   Leftover learnable = Noise();
   learnable.learnable_bic = 40.0;
