@@ -308,6 +308,25 @@ Json FacetsOf(const PartQuery& query, const PartTable& table) {
   return RenderFacets(Matching(query, GradesOf(query, table), table), table);
 }
 
+namespace {
+
+// "; nearest known: mass_kg": the shortest that begins with the name, else the nearest of a name
+// that is long enough to be a misspelling; else what there is.
+std::string Neighbour(const std::string& name, const std::vector<std::string>& known) {
+  std::string begun;
+  for (const std::string& one : known)
+    if (!name.empty() && one.starts_with(name) && (begun.empty() || one.size() < begun.size()))
+      begun = one;
+  if (!begun.empty()) return "; nearest known: " + begun;
+  constexpr std::size_t kLongEnough = 3;
+  if (name.size() >= kLongEnough) return "; nearest known: " + Nearest(name, known);
+  std::string all;
+  for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+  return "; fields are " + all;
+}
+
+}  // namespace
+
 Errors CheckColumns(const std::vector<std::string>& columns,
                     const std::optional<std::string>& family) {
   const Vocabulary vocabulary = VocabularyOf(family);
@@ -317,8 +336,8 @@ Errors CheckColumns(const std::vector<std::string>& columns,
   Errors errors;
   for (const std::string& column : columns)
     if (std::find(known.begin(), known.end(), column) == known.end())
-      errors.push_back({"/columns", Quoted(Clip(column)) +
-                                        " is no field; nearest known: " + Nearest(column, known)});
+      errors.push_back(
+          {"/columns", Quoted(Clip(column)) + " is no field" + Neighbour(column, known)});
   return errors;
 }
 

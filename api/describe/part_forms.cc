@@ -80,6 +80,8 @@ Json FormOf(const catalog::NumberField& field) {
   }
   if (field.name == "current_max_a")
     form["anyOf"].push_back(PrintedForm({"c_rate"}, {}, {1e-3, 1e3}));
+  if (field.name == "capacity_ah")
+    form["anyOf"].push_back(PrintedForm({"energy_wh"}, {}, {1e-3, 1e6}));
   if (catalog::IsConductance(field.name))
     for (const Json& printed : PrintedForms()) form["anyOf"].push_back(printed);
   return form;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 
 #include "api/json/units.h"
@@ -37,10 +38,12 @@ Json PartIds(const optimizer::Design& design) {
   return ids;
 }
 
-// What the design misses most under the problem's effects, at its own settings.
+// What the design misses most under the problem's effects, at its own settings; null where that is
+// not known.
 Json WhyDropped(const optimizer::Problem& problem, const optimizer::Problem& relaxed,
-                const optimizer::Design& design) {
-  const auto margins = optimizer::MarginsOf(problem, relaxed, design);
+                const optimizer::Design& design, const std::function<bool()>& stop) {
+  const auto margins = optimizer::MarginsOf(problem, relaxed, design, stop);
+  if (stop && stop()) return nullptr;
   if (!margins) return "a stroke is never completed";
   const auto worst = std::min_element(
       margins->begin(), margins->end(),
@@ -52,7 +55,7 @@ Json WhyDropped(const optimizer::Problem& problem, const optimizer::Problem& rel
 }
 
 Json Compare(const optimizer::Problem& problem, const std::vector<optimizer::Design>& revised,
-             const optimizer::Answer& nominal) {
+             const optimizer::Answer& nominal, const std::function<bool()>& stop) {
   const std::map<PartsKey, int> nominal_ranks = RanksOf(nominal.designs);
   const std::map<PartsKey, int> ranks = RanksOf(revised);
   Json designs = Json::array();
@@ -77,7 +80,7 @@ Json Compare(const optimizer::Problem& problem, const std::vector<optimizer::Des
     dropped.push_back({{"nominal_rank", i + 1},
                        {"objective", Number(design.objective)},
                        {"parts", PartIds(design)},
-                       {"why", WhyDropped(problem, relaxed, design)}});
+                       {"why", WhyDropped(problem, relaxed, design, stop)}});
   }
   return {{"status", optimizer::Name(nominal.status)},
           {"designs", std::move(designs)},
@@ -109,7 +112,8 @@ Json AnswerRevised(const DesignRequest& request, const optimizer::SearchOptions&
   model["effects"] = RenderEffects(request.problem.groups.front().effects);
   model["proved"] = optimizer::RelaxationIsProved(request.problem);
   list.document["model"] = std::move(model);
-  list.document["against_nominal"] = Compare(request.problem, list.answer.designs, nominal);
+  list.document["against_nominal"] =
+      Compare(request.problem, list.answer.designs, nominal, options.cancelled);
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
   list.document["seconds"] = Number(all.count());
   return std::move(list.document);

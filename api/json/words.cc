@@ -68,6 +68,12 @@ std::string EscapePointer(std::string_view step) {
   return escaped;
 }
 
+std::string WithArticle(const std::string& name) {
+  const bool vowel =
+      !name.empty() && std::string_view("aeiou").find(name[0]) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + name;
+}
+
 std::string Nearest(std::string_view name, std::span<const std::string> candidates) {
   return std::string(catalog::NearestName(name, {candidates.begin(), candidates.end()}));
 }

@@ -26,6 +26,9 @@ std::string Significant(double value, int digits = 3);
 // "a, b or c"
 std::string OneOf(std::span<const std::string> names);
 
+// "a valve", "an ejector".
+std::string WithArticle(const std::string& name);
+
 // `~` and `/` as RFC 6901 wants them in one step of a JSON pointer.
 std::string EscapePointer(std::string_view step);
 

@@ -18,6 +18,15 @@ std::vector<Rate> ReadRates() {
   return rates;
 }
 
+// The rate of a currency that UnitsPerEuro() gives. Dates compare as texts: "2024" comes before
+// "2024-05", which comes before "2024-05-31".
+const Rate* RateOf(std::string_view currency, std::string_view date) {
+  const Rate* found = nullptr;
+  for (const Rate& rate : Rates())
+    if (rate.currency == currency && (!found || date.empty() || rate.date <= date)) found = &rate;
+  return found;
+}
+
 std::optional<double> EuroAPiece(const Offer& offer) {
   const auto units = UnitsPerEuro(offer.currency, offer.date);
   if (!units || !(offer.price >= 0) || !(offer.pack > 0)) return std::nullopt;
@@ -37,9 +46,9 @@ std::string SourceOf(const Offer& offer) {
   if (!offer.date.empty()) source += ", " + offer.date;
   source += ": " + FormatNumber(offer.price) + " " + offer.currency;
   if (offer.pack != 1.0) source += " for " + FormatNumber(offer.pack);
-  if (offer.currency != kEuro)
-    source += ", " + FormatNumber(UnitsPerEuro(offer.currency, offer.date).value()) + " " +
-              offer.currency + "/EUR";
+  if (const Rate* rate = RateOf(offer.currency, offer.date))
+    source +=
+        ", " + FormatNumber(rate->units_per_eur) + " " + offer.currency + "/EUR of " + rate->date;
   return source;
 }
 
@@ -57,14 +66,10 @@ std::vector<std::string_view> Currencies() {
   return currencies;
 }
 
-// Dates compare as texts: "2024" comes before "2024-05", which comes before "2024-05-31".
 std::optional<double> UnitsPerEuro(std::string_view currency, std::string_view date) {
   if (currency == kEuro) return 1.0;
-  std::optional<double> units;
-  for (const Rate& rate : Rates())
-    if (rate.currency == currency && (!units || date.empty() || rate.date <= date))
-      units = rate.units_per_eur;
-  return units;
+  const Rate* rate = RateOf(currency, date);
+  return rate != nullptr ? std::optional(rate->units_per_eur) : std::nullopt;
 }
 
 const Offer* NewestOffer(const std::vector<Offer>& offers) {

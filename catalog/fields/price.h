@@ -37,7 +37,7 @@ const Offer* NewestOffer(const std::vector<Offer>& offers);
 //
 //   price_eur = price / (units per euro · pack),
 //
-// with provenance `derived`, whatever the price was. For tubing the field is price_eur_per_m and
+// with provenance `derived`, whatever the price was; its source says which rate that is. For tubing the field is price_eur_per_m and
 // `pack` counts metres. A part without an offer that counts keeps its price.
 void DerivePrice(Part& part);
 

@@ -131,6 +131,7 @@ class RowReader {
     if (IsConductance(field) && IsPrintedFlow(cell)) return ReadPrinted(field, cell, part);
     if (field == "body_volume_ml" && IsPrintedBody(cell)) return ReadBody(field, cell, part);
     if (field == "current_max_a" && PrintedCRate(cell)) return ReadCRate(field, cell, part);
+    if (field == "capacity_ah" && PrintedEnergy(cell)) return ReadEnergy(field, cell, part);
     const Quantity quantity = ParseQuantity(cell, field);
     const Provenance provenance = ReadProvenance(field);
     if (quantity.value)
@@ -157,10 +158,17 @@ class RowReader {
   }
 
   void ReadCRate(std::string_view field, const std::string& cell, Part& part) {
-    const auto capacity = ParseQuantity(Cell("capacity_ah"), "capacity_ah").value;
-    if (!capacity)
+    const auto capacity = part.numbers.find("capacity_ah");  // which stands before it
+    if (capacity == part.numbers.end())
       return Fail(std::string(field), "a C-rate needs capacity_ah, which the row lacks");
-    TakeDerived(field, CurrentOfCRate(*PrintedCRate(cell), *capacity), part);
+    TakeDerived(field, CurrentOfCRate(*PrintedCRate(cell), capacity->second.value), part);
+  }
+
+  void ReadEnergy(std::string_view field, const std::string& cell, Part& part) {
+    const auto voltage = part.numbers.find("nominal_voltage_v");  // which stands before it
+    if (voltage == part.numbers.end() || !(voltage->second.value > 0))
+      return Fail(std::string(field), "an energy needs nominal_voltage_v, which the row lacks");
+    TakeDerived(field, CapacityOfEnergy(*PrintedEnergy(cell), voltage->second.value), part);
   }
 
   void ReadPump(const std::string& cell, Part& part) {

@@ -69,7 +69,12 @@ void NoteCell(const std::string& cell, ColumnEvidence& evidence) {
   const auto show = [&](std::string& example) {
     if (example.empty()) example = cell.substr(0, kSampleBytes);
   };
-  if (number.is_bare()) show(evidence.bare);
+  if (number.is_bare()) {
+    show(evidence.bare);
+    const auto value = ParseQuantity(number.digits, "").value;
+    evidence.bare_least = std::min(evidence.bare_least, value.value_or(-HUGE_VAL));
+    evidence.bare_most = std::max(evidence.bare_most, value.value_or(HUGE_VAL));
+  }
   switch (EvidenceOf(number.digits)) {
     case Evidence::kPoint:
       return show(evidence.point);
@@ -141,12 +146,32 @@ void FindDecimals(const std::vector<ColumnEvidence>& evidence, const TableOption
   }
 }
 
+// The only unit of volts with which all bare numbers are in the field's range; empty: there is not
+// just one, or they are no voltages.
+std::string OnlyVoltage(const NumberField& field, const ColumnEvidence& evidence) {
+  if (UnitOf(field.name) != "V") return "";
+  std::string only;
+  const std::string units = UnitNames(field.name);
+  for (std::string_view unit : Split(units, ',')) {
+    unit = unit.substr(unit.find_first_not_of(' '));
+    const auto in_range = [&](double bare) {
+      const auto value =
+          ParseQuantity(FormatNumber(bare) + " " + std::string(unit), field.name).value;
+      return value && field.min <= *value && *value <= field.max;
+    };
+    if (!in_range(evidence.bare_least) || !in_range(evidence.bare_most)) continue;
+    if (!only.empty()) return "";
+    only = unit;
+  }
+  return only;
+}
+
 void AskForUnits(const Family& family, const std::vector<ColumnEvidence>& evidence,
                  TableReading& reading) {
   for (std::size_t i = 0; i < evidence.size(); ++i) {
-    const ColumnRead& column = reading.columns[i];
+    ColumnRead& column = reading.columns[i];
     if (evidence[i].bare.empty()) continue;
-    for (const Target& target : column.targets) {
+    for (Target& target : column.targets) {
       const bool needs_one = FindNumber(family, target.column) != nullptr && target.unit.empty() &&
                              !target.by_full_name;
       std::string_view field = target.column;
@@ -154,6 +179,9 @@ void AskForUnits(const Family& family, const std::vector<ColumnEvidence>& eviden
         for (const FlowNotationSpec& spec : FlowNotations())
           if (spec.notation == *target.notation) field = spec.field;
       if (!needs_one || UnitOf(field).empty()) continue;
+      if (target.unit = OnlyVoltage(*FindNumber(family, target.column), evidence[i]);
+          !target.unit.empty())
+        continue;
       Question question{"column", column.key, "", {}};
       question.text = Shown(column.key) + ": in which unit is " + Shown(evidence[i].bare) +
                       "? Units of " + target.column + " are " + UnitNames(field);

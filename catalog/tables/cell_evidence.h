@@ -3,15 +3,21 @@
 #ifndef PLENUM_CATALOG_TABLES_CELL_EVIDENCE_H_
 #define PLENUM_CATALOG_TABLES_CELL_EVIDENCE_H_
 
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "catalog/tables/understanding.h"
 
 namespace plenum::catalog {
 
 // Of the numbers of a column, the first cell that shows it; empty: none does.
 struct ColumnEvidence {
-  std::string point, comma;                // a decimal point, a decimal comma
-  std::string either_comma, either_point;  // 1,234 and 1.234: decimals or thousands
-  std::string bare;                        // a number without a unit
+  std::string point, comma;                             // a decimal point, a decimal comma
+  std::string either_comma, either_point;               // 1,234 and 1.234: decimals or thousands
+  std::string bare;                                     // a number without a unit
+  double bare_least = HUGE_VAL, bare_most = -HUGE_VAL;  // of all of them that leave no doubt
 };
 
 // Notes what one cell shows, if it starts with a number.
@@ -29,7 +35,8 @@ std::vector<ColumnEvidence> LookAtCells(const Family& family, std::string_view t
 void FindDecimals(const std::vector<ColumnEvidence>& evidence, const TableOptions& options,
                   TableReading& reading);
 
-// Asks for the unit of bare numbers whose heading names a field with a unit in other words.
+// Asks for the unit of bare numbers whose heading names a field with a unit in other words. Of
+// voltages it is the only one, if there is one, with which all are in the range of the field.
 void AskForUnits(const Family& family, const std::vector<ColumnEvidence>& evidence,
                  TableReading& reading);
 

@@ -27,9 +27,12 @@ std::vector<Target> GivenTargets(const Family& family, std::string_view text,
       continue;
     }
     // The heading's own unit, where the answer names none.
-    if (given.target.unit.empty() && !given.target.notation)
-      for (const Target& target : MatchHeading(family, column.heading).targets)
-        if (target.column == given.target.column) given.target = target;
+    if (given.target.unit.empty() && !given.target.notation) {
+      std::vector<Target> said = MatchHeading(family, column.heading).targets;
+      std::erase_if(said,
+                    [&](const Target& target) { return target.column != given.target.column; });
+      if (said.size() == 1) given.target = said.front();
+    }
     targets.push_back(std::move(given.target));
   }
   return targets;
@@ -69,6 +72,12 @@ std::string Listed(const std::vector<Target>& targets) {
   return text;
 }
 
+// Whether they are one column, its normal litres at 0 °C or at 20 °C.
+bool AskForTemperature(const std::vector<Target>& targets) {
+  return targets.size() == 2 && targets[0].column == targets[1].column &&
+         targets[0].unit.find("°C") != std::string::npos;
+}
+
 // "Set pressure range": both ends stand in each cell.
 bool IsRange(std::string_view heading, const HeadingMatch& match) {
   const std::string plain = PlainWords(heading);
@@ -92,7 +101,9 @@ Question QuestionOf(const Family& family, const ColumnRead& column, const Headin
                     " is it? An empty answer leaves it out";
     return question;
   }
-  question.text = what + "is it " + Listed(match.targets) + "?";
+  question.text = what + (AskForTemperature(match.targets)
+                              ? "is its normal litre counted at 0 °C or at 20 °C, 7 % apart?"
+                              : "is it " + Listed(match.targets) + "?");
   std::string all;
   for (const Target& target : match.targets) {
     question.answers.push_back(FormatTarget(target));
@@ -144,6 +155,29 @@ void MakeOffers(const Family& family, TableReading& reading, std::vector<OpenCol
       targets.clear();
       open.push_back({i, {}});
     }
+}
+
+bool HasTarget(const ColumnRead& column, std::string_view name) {
+  return std::any_of(column.targets.begin(), column.targets.end(),
+                     [&](const Target& target) { return target.column == name; });
+}
+
+// "Part" beside a maker is the maker's number of it.
+void TakePartNumber(const Family& family, TableReading& reading, std::vector<OpenColumn>& open) {
+  const auto has = [&](std::string_view name) {
+    return reading.set.contains(std::string(name)) ||
+           std::any_of(reading.columns.begin(), reading.columns.end(),
+                       [&](const ColumnRead& column) { return HasTarget(column, name); });
+  };
+  if (!has("manufacturer") || has("part_number")) return;
+  const auto says_part = [&](const OpenColumn& one) {
+    return FieldWords(family.name, reading.columns[one.index].heading) ==
+           std::vector<std::string>{"part"};
+  };
+  if (std::count_if(open.begin(), open.end(), says_part) != 1) return;
+  const auto found = std::find_if(open.begin(), open.end(), says_part);
+  reading.columns[found->index].targets = {{"part_number", ""}};
+  open.erase(found);
 }
 
 void AskForTwins(TableReading& reading) {
@@ -203,6 +237,7 @@ std::vector<OpenColumn> MapColumns(const Family& family, const CsvRow& header, c
     reading.columns.push_back(std::move(column));
   }
   MakeOffers(family, reading, open);
+  TakePartNumber(family, reading, open);
   return open;
 }
 

@@ -104,36 +104,50 @@ bool IsImplied(const Target& target, std::string_view unit) {
          (target.notation == FlowNotation::kCv && (unit == "gpm" || unit == "US gal/min"));
 }
 
+// A normal litre without the temperature that it is counted at: one target for each of the two.
+void SayTemperatures(std::string_view unit, std::vector<Target>& named) {
+  std::vector<Target> said;
+  for (const Target& target : named) {
+    const std::string at = std::string(unit) + " (";
+    if (HasUnit(target, unit) || !HasUnit(target, at + "0 °C)")) {
+      said.push_back(target);
+      continue;
+    }
+    for (const char* temperature : {"0 °C)", "20 °C)"}) {
+      said.push_back(target);
+      said.back().unit = at + temperature;
+    }
+  }
+  named = std::move(said);
+}
+
 // Those that can have the unit, with it.
 void KeepThoseWithUnit(const Family& family, std::string_view unit, std::vector<Target>& named) {
   std::erase_if(named, [&](const Target& target) {
     return !IsImplied(target, unit) && target.column != kOfferPrice && target.column != "c_rate" &&
            FindNumber(family, target.column) == nullptr;
   });
+  SayTemperatures(unit, named);
   std::erase_if(named, [&](const Target& target) {
-    return !IsImplied(target, unit) && !HasUnit(target, unit);
+    return !IsImplied(target, unit) && target.unit.empty() && !HasUnit(target, unit);
   });
   for (Target& target : named)
-    if (!IsImplied(target, unit)) target.unit = unit;
+    if (!IsImplied(target, unit) && target.unit.empty()) target.unit = unit;
 }
 
 // The word for what a unit measures, where fields of parts have one; empty: none.
 std::string_view QuantityOf(std::string_view unit) {
   constexpr std::pair<std::string_view, std::string_view> kQuantities[] = {
-      {"_kpa_gauge", "pressure"},
-      {"_l_per_min", "flow"},
-      {"_ah", "capacity"},
-      {"_v", "voltage"},
-      {"_w", "power"},
-      {"_a", "current"},
-      {"_kg", "mass"},
-      {"_kg_per_m", "mass"}};
+      {"_kpa_gauge", "pressure"}, {"_l_per_min", "flow"}, {"_ah", "capacity"},
+      {"_wh", "energy"},          {"_v", "voltage"},      {"_w", "power"},
+      {"_a", "current"},          {"_kg", "mass"},        {"_kg_per_m", "mass"}};
   for (const auto& [field, word] : kQuantities)
     if (ParseQuantity("1 " + std::string(unit), field, {.needs_unit = true}).value) return word;
   return "";
 }
 
-// "max psi", "psi (max)", "mAh": a unit names its quantity. One letter alone may be anything.
+// "max psi", "psi (max)", "mAh": a unit names its quantity. One letter alone may be anything, but
+// for V.
 std::vector<Target> NamedByUnit(const Family& family, std::string_view heading) {
   std::vector<std::string> words;
   std::string_view unit;
@@ -151,7 +165,7 @@ std::vector<Target> NamedByUnit(const Family& family, std::string_view heading) 
       return {};
   }
   const std::string_view quantity = QuantityOf(unit);
-  if (quantity.empty() || (words.empty() && unit.size() < 2)) return {};
+  if (quantity.empty() || (words.empty() && unit.size() < 2 && unit != "V")) return {};
   words.emplace_back(quantity);
   std::sort(words.begin(), words.end());
   std::vector<Target> named = NamedBy(family, words);

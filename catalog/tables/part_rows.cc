@@ -235,6 +235,7 @@ class RowMaker {
     const std::string text = unit.empty() ? plain : plain + " " + unit;
     if (target.notation) return std::string(WordOf(*target.notation)) + " " + text;
     if (unit.empty() && number.tail.find('/') == std::string::npos) return plain;
+    if (target.column == "capacity_ah" && PrintedEnergy(text)) return text;
     const Quantity quantity = ParseQuantity(text, target.column);
     if (quantity.value) return FormatNumber(*quantity.value);
     fail_({row_, column.key, quantity.error});

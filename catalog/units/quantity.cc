@@ -206,6 +206,7 @@ class Converter {
       else if (Drop(name, {"at0", "0"}))
         per_litre = kAnrPerNormalLitre, condition = kAtZero;
     }
+    if (per_litre > 0.0) Drop(name, {","});
     const Unit* unit = Find(dimension_, name);
     if (unit == nullptr || !unit->condition.empty()) return std::nullopt;
     if (per_litre > 0.0) return InFieldUnit(value_, *unit) * per_litre;

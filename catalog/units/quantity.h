@@ -34,7 +34,7 @@ struct QuantityContext {
 //   _ml, _l             mL, cm3, cc, L, dm3, m3, in3
 //   _mm, _m             mm, um, cm, m, in, ft          _mm2        mm2, cm2, in2
 //   _l_per_min[_anr]    L/min, L/s, m3/h, scfm, cfm, each also with ANR (ISO 8778); normal litres
-//                       only with 0 °C or 20 °C behind them
+//                       only with 0 °C or 20 °C behind them: NL/min (0 °C), NL/min, 20 °C
 //   _dm3_per_s_bar      dm3/(s·bar), L/(s·bar), L/(min·bar), m3/(s·Pa)
 //   _s, _ms             s, ms, us, min, h              _hz         Hz, mHz, kHz, 1/min
 //   _k                  K, °C, °F                      _deg        °, rad

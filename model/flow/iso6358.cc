@@ -1,7 +1,6 @@
 #include "model/flow/iso6358.h"
 
 #include <cmath>
-#include <limits>
 
 namespace plenum::model {
 namespace {
@@ -19,15 +18,6 @@ double FlowFunction(double ratio, double critical_ratio, double subsonic_index) 
   if (ratio <= critical_ratio) return 1.0;
   const double square = EllipseSquare(ratio, critical_ratio);
   return subsonic_index == 0.5 ? std::sqrt(square) : std::pow(square, subsonic_index);
-}
-
-double FlowFunctionSlope(double ratio, double critical_ratio, double subsonic_index) {
-  if (ratio > 1.0 || ratio <= critical_ratio) return 0.0;
-  if (ratio == 1.0 && subsonic_index < 1.0) return -std::numeric_limits<double>::infinity();
-  const double width = 1.0 - critical_ratio;
-  const double square = EllipseSquare(ratio, critical_ratio);
-  return -2.0 * subsonic_index * (ratio - critical_ratio) / (width * width) *
-         std::pow(square, subsonic_index - 1.0);
 }
 
 }  // namespace plenum::model

@@ -31,9 +31,6 @@ inline double PressureRatio(double mirror_pa, double upstream_pa, double downstr
                          : downstream_pa / upstream_pa;
 }
 
-// dΨ/dr; 0 where choked, −∞ at r = 1 for m < 1.
-double FlowFunctionSlope(double ratio, double critical_ratio, double subsonic_index = 0.5);
-
 }  // namespace plenum::model
 
 #endif  // PLENUM_MODEL_FLOW_ISO6358_H_

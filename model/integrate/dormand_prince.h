@@ -99,7 +99,6 @@ class DormandPrinceOf {
   void set_next_step(double step) { control_.set_next_step(step); }
   std::span<const T> state() const { return y1_; }
   std::span<const T> derivative() const { return k_[6]; }
-  std::span<const T> start_derivative() const { return k_[0]; }
 
   // Dense output of the last step at t = start_time() + θ·step(), θ in [0, 1].
   T At(const T& theta, std::size_t i) const {

@@ -9,6 +9,10 @@ namespace {
 
 // A ratio this close to the border of two regimes counts as inside the one that it came from.
 constexpr double kKinkWidth = 1e-9;
+// The kink where flow near equal pressures becomes a straight line. A line that passes it so often
+// between two switches stays on it, closer than the steps are exact: an actuator rides with a
+// reservoir that slow pumps fill. The steps then pass it as they come.
+constexpr int kBend = 1, kBendsMost = 1000;
 // How far ahead the direction of a motion is asked for.
 constexpr double kAheadS = 1e-9;
 
@@ -78,28 +82,32 @@ void System<T>::Settle(const T& t, std::span<const T> y) {
       const std::optional<T> ratio = KinkRatio(group, line, t, y);
       if (!ratio) continue;
       const auto kinks = group.lines[line].kinks();
-      int& regime = group.regime[line];
+      int& regime = group.regime[line].below;
       const double r = ValueOf(*ratio);
       while (regime > 0 && r < kinks[static_cast<std::size_t>(regime) - 1] - kKinkWidth) --regime;
       while (regime < static_cast<int>(kinks.size()) &&
              r > kinks[static_cast<std::size_t>(regime)] + kKinkWidth) {
         ++regime;
       }
-      if (regime < static_cast<int>(kinks.size())) {
+      const bool over = group.regime[line].passed > kBendsMost;
+      const int next = regime + (over && regime == kBend),
+                last = regime - 1 - (over && regime - 1 == kBend);
+      const auto watch = [&](int kink, double sign, int step) {
         guards_.push_back(
-            {GuardKind::kKink, i, line, 1.0, T(kinks[static_cast<std::size_t>(regime)]), 1});
-      }
-      if (regime > 0) {
-        guards_.push_back(
-            {GuardKind::kKink, i, line, -1.0, T(kinks[static_cast<std::size_t>(regime) - 1]), -1});
-      }
+            {GuardKind::kKink, i, line, sign, T(kinks[static_cast<std::size_t>(kink)]), step});
+      };
+      if (next < static_cast<int>(kinks.size())) watch(next, 1.0, next + 1 - regime);
+      if (last >= 0) watch(last, -1.0, last - regime);
     }
   }
 }
 
 template <class T>
 void System<T>::PassKink(const Guard<T>& guard) {
-  groups_[guard.group].regime[guard.index] += guard.step;
+  Regime& regime = groups_[guard.group].regime[guard.index];
+  const bool bend = std::max(regime.below, regime.below + guard.step) == kBend + 1;
+  regime.below += guard.step;
+  regime.passed += bend;
 }
 
 template <class T>

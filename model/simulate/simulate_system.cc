@@ -344,7 +344,7 @@ OpenWay<T> System<T>::WayOf(Group& group, std::size_t line, const T& t) const {
   const bool in = line == kFill;
   const T open = (in ? group.filling : group.venting).At(t);
   OpenWay<T> way = {&group.lines[line], group.settled ? T(0.0) : T(group.moment.line_factor * open),
-                    group.regime[line]};
+                    group.regime[line].below};
   group.told.Throttle(t, line, in ? group.setup.fill : group.setup.exhaust, group.valve[line],
                       line_options_, way);
   return way;
@@ -373,7 +373,8 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
         m.line_out_m3_per_s *= Thinness(group.setup.dense, m.tail_pa, m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
-      outlets_.push_back({&group.lines[kFeed], T(group.count), m.head_pa, i, group.regime[kFeed]});
+      outlets_.push_back(
+          {&group.lines[kFeed], T(group.count), m.head_pa, i, group.regime[kFeed].below});
       if (filling.share > 0.0) {
         m.line_in_m3_per_s =
             filling.share * filling.line->Flow(m.head_pa, m.tail_pa, filling.regime);

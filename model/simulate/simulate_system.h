@@ -85,7 +85,10 @@ class System {
   const GroupSetup<T>& setup(std::size_t group) const { return groups_[group].setup; }
 
   // A valve that is open but at equal pressures passes nothing until the next switch.
-  void set_settled(std::size_t group, bool settled) { groups_[group].settled = settled; }
+  void set_settled(std::size_t group, bool settled) {
+    groups_[group].settled = settled;
+    for (Regime& regime : groups_[group].regime) regime.passed = 0;
+  }
   bool Passing(std::size_t group, double time_s) const;  // open and not settled
   bool Moving(std::size_t group, double time_s) const;   // its valve opens or closes
   bool Fed(std::size_t group, double time_s) const;      // open to the source
@@ -141,6 +144,10 @@ class System {
 
  private:
   static constexpr std::size_t kLines = 3;  // fill, exhaust, feed
+  struct Regime {
+    int below = 0;   // number of kinks below the present ratio
+    int passed = 0;  // times over the bend since the last switch
+  };
   struct Group {
     Group() = default;
     Group(Group&&) noexcept = default;
@@ -149,7 +156,7 @@ class System {
     GroupSetup<T> setup;
     std::array<Line<T>, kLines> lines;
     std::optional<Line<T>> with_regulator;  // its share of the regulator and the way in
-    std::array<int, kLines> regime{};       // number of kinks below the present ratio
+    std::array<Regime, kLines> regime{};
     std::vector<std::unique_ptr<EffectUnit<T>>> units;
     std::vector<std::size_t> unit_at;  // states of each unit, from y[0]
     std::size_t feeding_unit = 0;      // the unit behind the feed

@@ -124,7 +124,9 @@ class DesignsWithRoom {
     std::vector<Design> bought;
     for (const Design& design : Search(tight, options_).designs) {
       if (draws_.stopped()) break;
-      if (auto own = WithSettingsAnew(problem_, design, options_.cancelled))
+      if (auto own = WithSettingsAnew(problem_, design, [this] {
+            return draws_.stopped() || SecondsSince(start_) > options_.time_limit_s;
+          }))
         bought.push_back(std::move(*own));
     }
     return bought;

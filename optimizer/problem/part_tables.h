@@ -60,9 +60,6 @@ inline double PumpPressure(const model::Compressor& pump) { return pump.curve.pr
 inline double FullPressure(const model::Cylinder& cylinder) {  // at most
   return cylinder.fill_pressure_pa + cylinder.fill_pressure_spread_pa;
 }
-inline double RisingVolume(const model::Reservoir& reservoir) {
-  return reservoir.volume_m3 + reservoir.volume_spread_m3;
-}
 inline double PackEnergy(const model::Battery& pack) {
   return model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v);
 }

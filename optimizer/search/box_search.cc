@@ -19,8 +19,6 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr double kProgressIntervalS = 0.2;
-// After the end designs found before are still confirmed, one at least and others for so long.
-constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
 constexpr double kFirstFrom = 0.01;                  // the same
 // Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a pump's source
@@ -37,8 +35,7 @@ class BoxSearch {
         ranking_(problem),
         recorder_(options.record),
         bench_{[this] { return watch_.DiveStopped(); }, options.periodic},
-        report_bench_{[this] { return reported_ > 0 && watch_.StoppedFor(kGraceS); },
-                      options.periodic},
+        report_bench_{[this] { return watch_.OutOfGrace(reported_ > 0); }, options.periodic},
         configurations_(problem, bench_, options.record) {}
 
   Answer Run() {

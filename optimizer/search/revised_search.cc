@@ -73,7 +73,8 @@ class Revision {
         Enumerate(WithoutEffects(problem_), problem_.count, 0.5 * (until_s - Seconds()));
     if (list.designs.empty()) return std::nullopt;
     Assess(list, until_s);
-    const auto margins = MarginsOf(problem_, relaxed_, list.designs.front());
+    const auto margins =
+        MarginsOf(problem_, relaxed_, list.designs.front(), [this] { return Stopped(); });
     if (!margins) return std::nullopt;
     return Guide(problem_, list.designs.front(), *margins);
   }

@@ -1,7 +1,9 @@
-// When a search has to stop: cancelled, or at its time limit; and its dives before that.
+// When a search has to stop: cancelled, at any time, or at its time limit; its dives before that.
+// For how long after that the designs found before are still confirmed.
 #ifndef PLENUM_OPTIMIZER_SEARCH_WATCH_H_
 #define PLENUM_OPTIMIZER_SEARCH_WATCH_H_
 
+#include <algorithm>
 #include <chrono>
 
 #include "optimizer/problem/problem.h"
@@ -21,14 +23,26 @@ class Watch {
   // Whether it has stopped, without a look at the clock and with one.
   bool stopped() const { return cancelled_ || late_; }
   bool Stopped() {
-    if (stopped()) return true;
+    if (cancelled_) return true;
     cancelled_ = options_.cancelled && options_.cancelled();
+    if (late_ && !cancelled_) return true;
     looked_s_ = Seconds();
-    late_ = looked_s_ > options_.time_limit_s;
+    late_ = late_ || looked_s_ > options_.time_limit_s;
     if (stopped()) stopped_s_ = looked_s_;
     return stopped();
   }
-  bool StoppedFor(double seconds) { return Stopped() && Seconds() > stopped_s_ + seconds; }
+
+  // Whether the grace is over as well: the same short one after a cancel, whatever is listed, and
+  // after the limit for designs behind a first. A list's first design, without which there would be
+  // no answer, gets more.
+  bool OutOfGrace(bool has_first) {
+    constexpr double kGraceS = 0.1, kFirstGraceS = 1.0, kFirstGrace = 0.1;  // of the time limit
+    if (!Stopped()) return false;
+    const double grace_s = cancelled_ || has_first
+                               ? kGraceS
+                               : std::max(kFirstGraceS, kFirstGrace * options_.time_limit_s);
+    return Seconds() > stopped_s_ + grace_s;
+  }
 
   // Dives for a share of the time limit, as long as it asks DiveStopped().
   void DiveFor(double share, const auto& dive) {

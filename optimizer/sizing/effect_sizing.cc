@@ -60,20 +60,27 @@ class EffectSizing {
     double objective = kUnlimited;
   };
 
+  // Evaluations look for the same word, so what one says counts where it was not given since.
+  bool Stopped() {
+    stopped_ = stopped_ || (stop_ && stop_());
+    return stopped_;
+  }
+
   // At the lowest pressure that drives the strokes.
   Trial Try(double reservoir_m3) {
     Trial trial{{0.0, reservoir_m3, reservoir_m3}};
     const auto excess = [&](double source_pa) {
-      stopped_ = stopped_ || (stop_ && stop_());
-      if (stopped_) return 0.0;
+      if (Stopped()) return 0.0;
       trial.point.source_pa = source_pa;
-      return StrokeExcess(problem_, Evaluate(problem_, candidate_, trial.point));
+      const Evaluation evaluation = Evaluate(problem_, candidate_, trial.point);
+      return Stopped() ? 0.0 : StrokeExcess(problem_, evaluation);
     };
     if (window_.empty() || excess(window_.high_pa) > 0.0) return trial;
     trial.point.source_pa =
         SmallestFeasible(excess, window_.low_pa, window_.high_pa, kPressureTolerance);
     if (stopped_) return trial;
     const Evaluation evaluation = Evaluate(problem_, candidate_, trial.point);
+    if (Stopped()) return trial;
     trial.excess = -SmallestMargin(problem_, candidate_, trial.point, evaluation);
     trial.objective = ObjectiveValue(problem_, candidate_, trial.point, evaluation);
     return trial;

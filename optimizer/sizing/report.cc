@@ -111,7 +111,7 @@ bool BeginsElsewhere(const model::Rig& rig, const model::Response& first) {
 }
 
 // One cycle of the periodic state of what is simulated together, from a full reservoir and
-// actuators at rest, where they are; none where the simulator fails.
+// actuators at rest, where they are; none where the simulator fails or is told to stop.
 std::optional<model::Response> CycleOf(const Problem& problem, const Candidate& candidate,
                                        const OperatingPoint& point, const Together& together) {
   model::SimulateOptions options;
@@ -119,6 +119,7 @@ std::optional<model::Response> CycleOf(const Problem& problem, const Candidate& 
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
+  if (candidate.bench != nullptr) options.cancelled = candidate.bench->stop;
   model::Rig rig = MakeRig(problem, candidate, point, together);
   model::Response response = model::Simulate(rig, options);
   if (response.status != model::SimulateStatus::kDone) return std::nullopt;
@@ -282,6 +283,7 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
   if (!evaluation.works) return std::nullopt;  // told to stop meanwhile
   Design design = Describe(problem, candidate, point, evaluation);
   design.response = TraceCycle(problem, candidate, point);
+  if (design.response.t_s.empty() && candidate.stopped()) return std::nullopt;
   return design;
 }
 

@@ -254,6 +254,8 @@ Remade Remake(const Problem& problem, const Problem& relaxed, const Design& desi
               const std::function<bool()>& stop) {
   Rebuilt rebuilt;
   if (!Rebuild(problem, relaxed, design, rebuilt)) return {LeafStatus::kInfeasible, {}};
+  const Workbench bench{.stop = stop};
+  rebuilt.candidate.bench = &bench;
   const Leaf leaf = SizeWithEffects(problem, rebuilt.candidate,
                                     design.settings.reservoir_volume_m3.value_or(0.0), stop);
   Remade remade{leaf.status, {}};
@@ -264,9 +266,12 @@ Remade Remake(const Problem& problem, const Problem& relaxed, const Design& desi
 }
 
 std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Problem& relaxed,
-                                             const Design& design) {
+                                             const Design& design,
+                                             const std::function<bool()>& stop) {
   Rebuilt rebuilt;
   if (!Rebuild(problem, relaxed, design, rebuilt)) return std::nullopt;
+  const Workbench bench{.stop = stop};
+  rebuilt.candidate.bench = &bench;
   const OperatingPoint point = PointOf(problem, rebuilt.candidate, design);
   const Evaluation evaluation = Evaluate(problem, rebuilt.candidate, point);
   if (!evaluation.works) return std::nullopt;

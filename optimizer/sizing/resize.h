@@ -44,9 +44,10 @@ Remade Remake(const Problem& problem, const Problem& relaxed, const Design& desi
               const std::function<bool()>& stop);
 
 // Margins of the design's parts at its own settings under the problem's effects; none where a
-// stroke is never completed.
+// stroke is never completed, or where it was told to stop.
 std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Problem& relaxed,
-                                             const Design& design);
+                                             const Design& design,
+                                             const std::function<bool()>& stop);
 
 // The design's parts at its own settings, whatever they meet: totals, performance and margins,
 // negative where a requirement is missed. No design where a part is missing, where the parts do not

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 #include "api/catalogue/part_comparison.h"
 #include "api/catalogue/part_document.h"
@@ -69,8 +70,13 @@ void List(const CatalogOptions& options) {
   }
   const auto query = ListQuery(options);
   const auto family = options.family.empty() ? std::nullopt : std::optional(options.family);
-  if (const auto wrong = api::CheckColumns(options.list.columns, family); !wrong.empty())
-    Refuse(wrong);
+  std::vector<std::string> columns;
+  for (const std::string& given : options.list.columns) {
+    std::istringstream names(given);
+    for (std::string one; std::getline(names, one, ',');)
+      if (!one.empty()) columns.push_back(one);
+  }
+  if (const auto wrong = api::CheckColumns(columns, family); !wrong.empty()) Refuse(wrong);
   const auto store = OpenCatalog(options.catalog, Access::kRead);
   const auto revision = RevisionOrHead(store, options.revision);
   const auto all = store.ListAt(revision.number);
@@ -80,8 +86,7 @@ void List(const CatalogOptions& options) {
   if (options.csv) return Print(catalog::WriteCsv(options.family, parts));
   const auto facets = options.list.facets ? api::FacetsOf(query, table) : api::Json();
   if (!options.json)
-    return Print(PartsText(parts, options.list.columns) +
-                 (options.list.facets ? FacetsText(facets) : ""));
+    return Print(PartsText(parts, columns) + (options.list.facets ? FacetsText(facets) : ""));
   api::Json list = api::Json::array();
   for (const auto& part : parts) list.push_back(api::RenderPart(part));
   api::Json answer = {{"parts", std::move(list)},
@@ -217,7 +222,7 @@ OptionTable ListTable(CatalogOptions& options) {
        &options.list.sort,
        {.value_name = "FIELD"}},
       {"--columns",
-       "Fields to show instead of mass and conductance; may be repeated",
+       "Fields to show instead of mass and conductance, with commas between them; may be repeated",
        &options.list.columns,
        {.value_name = "FIELD"}},
       {"--facets", "Also what the parts hold: values and ranges with counts", &options.list.facets},

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "api/protocol/part_revision.h"
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
+#include "server/commands/designs/progress_line.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/files/input.h"
 #include "server/commands/files/measurement_files.h"
@@ -35,22 +34,6 @@ struct DiagnoseOptions {
   std::vector<std::string> holdout, assume;
   std::optional<double> time_limit_s;
   bool json = false, save_part_anyway = false;
-};
-
-// One line on the terminal, written over and over.
-class ProgressLine {
- public:
-  void Show(double share, const std::string& what) {
-    if (!terminal_) return;
-    std::fprintf(stderr, "\r\x1b[K%3.0f %%  %s", 100.0 * share, what.c_str());
-    std::fflush(stderr);
-  }
-  ~ProgressLine() {
-    if (terminal_) std::fputs("\r\x1b[K", stderr);
-  }
-
- private:
-  const bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
 std::optional<api::SavedModel> KnownModel(const DiagnoseOptions& options) {

@@ -14,8 +14,10 @@ namespace plenum::api {
 namespace {
 
 constexpr char kBody[] = "body_volume_ml", kCurrent[] = "current_max_a", kCurve[] = "curve";
+constexpr char kCapacity[] = "capacity_ah", kVoltage[] = "nominal_voltage_v";
 constexpr Range kSide{catalog::kBodySideMinMm, catalog::kBodySideMaxMm};
 constexpr Range kFreeFlow{1e-6, 1e6}, kPumpCurrent{1e-6, 1e3}, kCRate{1e-3, 1e3};
+constexpr Range kEnergy{1e-3, 1e6};
 
 const catalog::NumberField* FieldOf(const catalog::Family& family, std::string_view name) {
   for (const catalog::NumberField& field : family.numbers)
@@ -130,7 +132,7 @@ void DeriveCurrent(Reader& reader, const catalog::Family& family, catalog::Part&
     rate = object.Number("c_rate", kCRate);
     object.Finish();
   }
-  const auto capacity = part.numbers.find("capacity_ah");
+  const auto capacity = part.numbers.find(kCapacity);
   if (capacity == part.numbers.end() || !std::isfinite(capacity->second.value))
     return reader.Fail(kCurrent, "a C-rate needs capacity_ah");
   if (reader.errors().size() == errors_before)
@@ -138,26 +140,49 @@ void DeriveCurrent(Reader& reader, const catalog::Family& family, catalog::Part&
                 catalog::CurrentOfCRate(rate, capacity->second.value), part);
 }
 
+// {"energy_wh": 19.2} or "19.2 Wh".
+void DeriveCapacity(Reader& reader, const catalog::Family& family, catalog::Part& part) {
+  const Json& value = *reader.Raw(kCapacity);
+  const std::size_t errors_before = reader.errors().size();
+  double energy_wh = 0;
+  if (value.is_string()) {
+    energy_wh = catalog::PrintedEnergy(value.get_ref<const std::string&>()).value();
+  } else {
+    Reader object = reader.Object(kCapacity);
+    energy_wh = object.Number("energy_wh", kEnergy);
+    object.Finish();
+  }
+  const auto voltage = part.numbers.find(kVoltage);
+  if (voltage == part.numbers.end() || !(voltage->second.value > 0))
+    return reader.Fail(kCapacity, "an energy needs nominal_voltage_v");
+  if (reader.errors().size() == errors_before)
+    TakeDerived(reader, *FieldOf(family, kCapacity),
+                catalog::CapacityOfEnergy(energy_wh, voltage->second.value), part);
+}
+
 }  // namespace
 
 bool IsPrinted(Reader& reader, const std::string& name) {
   const Json& value = *reader.Raw(name);
-  const bool has_notation =
-      catalog::IsConductance(name) || name == kBody || name == kCurrent || name == kCurve;
+  const bool has_notation = catalog::IsConductance(name) || name == kBody || name == kCurrent ||
+                            name == kCapacity || name == kCurve;
   if (!has_notation || value.is_object()) return has_notation;
   if (!value.is_string()) return false;
   const std::string& text = value.get_ref<const std::string&>();
   if (name == kBody) return catalog::IsPrintedBody(text);
   if (name == kCurrent) return catalog::PrintedCRate(text).has_value();
+  if (name == kCapacity) return catalog::PrintedEnergy(text).has_value();
   return name == kCurve ? catalog::IsPrintedPump(text) : catalog::IsPrintedFlow(text);
 }
 
 void DerivePrinted(Reader& reader, const catalog::Family& family, catalog::Part& part) {
   DeriveFlows(reader, family, part);
-  for (const char* name : {kBody, kCurrent}) {
-    if (FieldOf(family, name) == nullptr || !reader.Has(name) || !IsPrinted(reader, name)) continue;
-    name == kBody ? DeriveBody(reader, family, part) : DeriveCurrent(reader, family, part);
-  }
+  // A C-rate may be one of a capacity that is itself printed as an energy.
+  const std::pair<const char*, decltype(&DeriveBody)> ways[] = {
+      {kBody, DeriveBody}, {kCapacity, DeriveCapacity}, {kCurrent, DeriveCurrent}};
+  for (const auto& [name, derive] : ways)
+    if (FieldOf(family, name) != nullptr && reader.Has(name) && IsPrinted(reader, name))
+      derive(reader, family, part);
 }
 
 void DerivePrintedCurve(Reader& reader, catalog::Part& part) {

@@ -1,6 +1,8 @@
 #include "api/design/given/evaluation.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 
 #include "api/design/design_document.h"
 #include "api/design/given/given_request.h"
@@ -24,6 +26,23 @@ std::string WhyUnknown(bool out_of_time, double seconds_max) {
          ": it is not known whether every stroke ends within half of the period";
 }
 
+// Of a design that does not work: what it does not.
+std::string WhyNot(const optimizer::Problem& problem, const optimizer::Window& source,
+                   const optimizer::Design& given) {
+  if (source.empty()) return "these parts stand no source pressure together";
+  const auto gauge = [&](double pa) { return optimizer::KpaGauge(problem, pa); };
+  const auto [least, most] = std::minmax({gauge(source.low_pa), gauge(source.high_pa)});
+  const double set = gauge(given.settings.source_pressure_pa);
+  const bool is_setting = !optimizer::IsDirect(given.configuration);
+  if (is_setting && given.settings.group_pressure_pa.empty() && (set < least || set > most))
+    return "the source pressure of " + Significant(set, 4) + " kPa is " +
+           (set < least ? "below" : "above") + " the range that works, " + Significant(least, 4) +
+           " to " + Significant(most, 4) + " kPa";
+  if (!given.settings.group_pressure_pa.empty())
+    return "a group's pressure is one that its parts do not stand, or a stroke never ends";
+  return "a stroke never ends within half of the period";
+}
+
 }  // namespace
 
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
@@ -37,7 +56,10 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
       optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given, out_of_time);
   Json answer = AnswerDocument("evaluation_answer/1");
   answer["works"] = unknown ? Json() : Json(design.has_value());
-  if (unknown) answer["detail"] = WhyUnknown(out_of_time(), seconds_max);
+  if (unknown)
+    answer["detail"] = WhyUnknown(out_of_time(), seconds_max);
+  else if (!design)
+    answer["detail"] = WhyNot(problem, source, given);
   const auto gauge = [&](double pa) { return Number(optimizer::KpaGauge(problem, pa)); };
   answer["source_pressure_range_kpa_gauge"] =
       source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};

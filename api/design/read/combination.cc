@@ -40,7 +40,7 @@ std::string KpaGauge(double pressure_pa, const Problem& problem) {
 
 // "a valve", "tubing"
 std::string Piece(Family family) {
-  return family == Family::kTubing ? "tubing" : std::string("a ") + optimizer::Name(family);
+  return family == Family::kTubing ? "tubing" : WithArticle(optimizer::Name(family));
 }
 
 const std::string& IdOf(const model::Tubing& tube) { return tube.per_metre.id; }
@@ -109,7 +109,7 @@ class Check {
   void FailRow(const Choice& choice, const char* field, std::string detail) {
     Fail("/parts/" + std::to_string(&choice - design_.parts.data()) + field, std::move(detail));
   }
-  std::string Is() const { return std::string("a ") + Name(design_.configuration) + " design"; }
+  std::string Is() const { return WithArticle(Name(design_.configuration)) + " design"; }
 
   // The first row of a family, for a group or (−1) for all.
   const Choice* RowOf(Family family, int group = -1) const {

@@ -184,4 +184,17 @@ PrintedNumber CurrentOfCRate(double rate, double capacity_ah) {
                                   FormatNumber(capacity_ah) + " Ah"};
 }
 
+std::optional<double> PrintedEnergy(std::string_view text) {
+  text = WithoutBlanks(text);
+  if (!text.ends_with("Wh")) return std::nullopt;
+  const auto energy_wh = ParseQuantity(text, "energy_wh", {.needs_unit = true}).value;
+  return energy_wh && *energy_wh > 0 ? energy_wh : std::nullopt;
+}
+
+PrintedNumber CapacityOfEnergy(double energy_wh, double nominal_voltage_v) {
+  return {energy_wh / nominal_voltage_v, "capacity = energy / nominal voltage, " +
+                                             FormatNumber(energy_wh) + " Wh, " +
+                                             FormatNumber(nominal_voltage_v) + " V"};
+}
+
 }  // namespace plenum::catalog

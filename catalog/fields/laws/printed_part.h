@@ -1,6 +1,6 @@
 // What data sheets and price lists print in place of numbers of the catalogue: the size of a body
 // in place of its volume, free flow and highest pressure in place of a pump's curve, a C-rate in
-// place of a battery's current.
+// place of a battery's current, its energy in place of its capacity.
 #ifndef PLENUM_CATALOG_FIELDS_LAWS_PRINTED_PART_H_
 #define PLENUM_CATALOG_FIELDS_LAWS_PRINTED_PART_H_
 
@@ -55,6 +55,11 @@ std::string DeriveCurve(const PrintedPump& pump, const std::string& source, Part
 std::optional<double> PrintedCRate(std::string_view text);
 // current = C-rate · capacity.
 PrintedNumber CurrentOfCRate(double rate, double capacity_ah);
+
+// The energy of a text like "19.2 Wh", in Wh, which stands in place of a capacity.
+std::optional<double> PrintedEnergy(std::string_view text);
+// capacity = energy / nominal voltage.
+PrintedNumber CapacityOfEnergy(double energy_wh, double nominal_voltage_v);
 
 }  // namespace plenum::catalog
 

@@ -9,7 +9,7 @@ namespace plenum::catalog {
 namespace {
 
 constexpr std::string_view kBody = "body_volume_ml", kCurve = "curve", kOffers = "offers",
-                           kCurrentMax = "current_max_a";
+                           kCurrentMax = "current_max_a", kCapacity = "capacity_ah";
 constexpr PrintedColumn kColumns[] = {
     {{"body_length_mm", 0, 0, false, "longest side, or length of a round body"}, kBody},
     {{"body_width_mm", 0, 0, false, "width of the body"}, kBody},
@@ -21,6 +21,7 @@ constexpr PrintedColumn kColumns[] = {
     {{"free_flow_l_per_min", 0, 0, false, "flow of a pump against no pressure"}, kCurve},
     {{"current_a", 0, 0, false, "highest current of a pump"}, kCurve},
     {{"c_rate", 0, 0, false, "continuous current over capacity, in 1/h"}, kCurrentMax, false},
+    {{"energy_wh", 0, 0, false, "energy of a battery"}, kCapacity},
     {{kOfferPrice, 0, 0, false, "price of a pack, in its currency"}, kOffers, false},
     {{kOfferCurrency, 0, 0, false, "currency of the price"}, kOffers, false},
     {{"offer_pack", 0, 0, false, "pieces in a pack"}, kOffers, false},
@@ -65,6 +66,11 @@ std::string CurveCell(const Cells& cells) {
   return "free flow " + flow + " L/min" + (current.empty() ? "" : ", " + current + " A");
 }
 
+std::string EnergyCell(const Cells& cells) {
+  const std::string energy = Of(cells, "energy_wh");
+  return energy.empty() ? "" : energy + " Wh";
+}
+
 std::string OffersCell(const Cells& cells) {
   const std::string price = Of(cells, kOfferPrice);
   if (price.empty()) return "";
@@ -97,6 +103,7 @@ std::string CellFromPrinted(std::string_view column, const Cells& printed) {
   if (column == kBody) return BodyCell(printed);
   if (column == kCurve) return CurveCell(printed);
   if (column == kCurrentMax) return Of(printed, "c_rate");
+  if (column == kCapacity) return EnergyCell(printed);
   return column == kOffers ? OffersCell(printed) : "";
 }
 

@@ -1,6 +1,6 @@
 // Columns of price lists and data sheets that the catalogue keeps otherwise: sides and diameter of
-// a body, free flow and current of a pump, C-rate of a battery, price with its currency, pack,
-// supplier and date.
+// a body, free flow and current of a pump, C-rate and energy of a battery, price with its currency,
+// pack, supplier and date.
 #ifndef PLENUM_CATALOG_TABLES_PRINTED_PRINTED_COLUMNS_H_
 #define PLENUM_CATALOG_TABLES_PRINTED_PRINTED_COLUMNS_H_
 

@@ -9,10 +9,7 @@
 #ifndef PLENUM_MODEL_SIMULATE_TOLD_DRIVEN_SOURCE_H_
 #define PLENUM_MODEL_SIMULATE_TOLD_DRIVEN_SOURCE_H_
 
-#include <cstddef>
 #include <vector>
-
-#include "model/simulate/told/time_course.h"
 
 namespace plenum::model {
 
@@ -21,12 +18,6 @@ struct DrivenSource {
   std::vector<double> pressure_pa;  // absolute, as many
   double factor = 1.0;              // on the gauge pressure
   bool operator==(const DrivenSource&) const = default;
-
-  // p(t) of the record.
-  double RecordedPressure(double t_s) const {
-    std::size_t near = 0;
-    return PointOfCourse(time_s, pressure_pa, t_s, near).value;
-  }
 };
 
 }  // namespace plenum::model

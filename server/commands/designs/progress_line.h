@@ -1,9 +1,11 @@
-// How far a search is, on one line of the terminal: for command_design.cc and command_sweep.cc.
+// How far a search is, on one line of the terminal: for command_design.cc, command_sweep.cc and
+// ../command_diagnose.cc.
 #ifndef PLENUM_SERVER_COMMANDS_DESIGNS_PROGRESS_LINE_H_
 #define PLENUM_SERVER_COMMANDS_DESIGNS_PROGRESS_LINE_H_
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -18,6 +20,13 @@ class ProgressLine {
     if (!terminal_) return;
     std::fprintf(stderr, "\r\x1b[K%s", Printable(text).c_str());
     std::fflush(stderr);
+  }
+  void Show(double share, const std::string& what) {
+    const int percent = static_cast<int>(std::lround(100.0 * share));
+    Show((percent < 10    ? "  "
+          : percent < 100 ? " "
+                          : "") +
+         std::to_string(percent) + " %  " + what);
   }
   ~ProgressLine() {
     if (terminal_) std::fputs("\r\x1b[K", stderr);

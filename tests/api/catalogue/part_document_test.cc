@@ -242,6 +242,27 @@ TEST(Parts, ACurrentMayBeGivenAsACRate) {
   }
 }
 
+// 19.2 Wh at the pack's nominal voltage; a C-rate is one of the capacity that this comes to.
+TEST(Parts, ACapacityMayBeGivenAsAnEnergy) {
+  for (const char* given : {R"({ "energy_wh": 19.2 })", R"("19.2 Wh")"}) {
+    Json json = RenderPart(PartOf("battery"));
+    json["nominal_voltage_v"] = 7.5;
+    json["capacity_ah"] = Parse(given);
+    json["current_max_a"] = "10C";
+    const auto parsed = ParsePart(json);
+    ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed)) << given;
+    const auto& numbers = std::get<catalog::Part>(parsed).numbers;
+    EXPECT_NEAR(numbers.at("capacity_ah").value, 2.56, 1e-12);
+    EXPECT_NEAR(numbers.at("current_max_a").value, 25.6, 1e-12);
+    EXPECT_THAT(numbers.at("capacity_ah").source,
+                HasSubstr("capacity = energy / nominal voltage, 19.2 Wh, 7.5 V"));
+  }
+  Json json = RenderPart(PartOf("battery"));
+  json.erase("nominal_voltage_v");
+  json["capacity_ah"] = "19.2 Wh";
+  EXPECT_THAT(DetailAt(ErrorsOf(ParsePart(json)), "/capacity_ah"), HasSubstr("nominal_voltage_v"));
+}
+
 TEST(Parts, NumbersMayCarryUnits) {
   Json json = RenderPart(PartOf("battery"));
   json["mass_kg"] = "400 g";

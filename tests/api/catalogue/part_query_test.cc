@@ -215,6 +215,10 @@ TEST(PartQuery, ChecksColumns) {
   EXPECT_TRUE(CheckColumns({"id", "mass_kg", "documents", "priced", "port"}, "reservoir").empty());
   EXPECT_THAT(DetailAt(CheckColumns({"mas_kg"}, std::nullopt), "/columns"), HasSubstr("mass_kg"));
   EXPECT_FALSE(CheckColumns({"coil_power_w"}, "reservoir").empty());
+  const Errors two = CheckColumns({"mass", "q"}, std::nullopt);
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_THAT(two[0].detail, HasSubstr("nearest known: mass_kg"));
+  EXPECT_THAT(two[1].detail, HasSubstr("fields are id, documents"));
 }
 
 TEST(PartQuery, NamesEveryParameterThatIsWrong) {

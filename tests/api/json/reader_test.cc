@@ -100,6 +100,11 @@ TEST(Text, DecimalReadsBack) {
   EXPECT_EQ(Decimal(1.5e300), "1.5e300");
 }
 
+TEST(Text, ArticlesFollowTheFirstLetter) {
+  EXPECT_EQ(WithArticle("ejector"), "an ejector");
+  EXPECT_EQ(WithArticle("valve"), "a valve");
+}
+
 TEST(Text, ClipCutsBetweenCharacters) {
   EXPECT_EQ(Clip("aéé", 4), "aé…");
   EXPECT_EQ(Clip("abc", 3), "abc");

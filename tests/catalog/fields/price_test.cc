@@ -38,6 +38,19 @@ TEST(Price, ARateHoldsUntilTheNext) {
   EXPECT_FALSE(UnitsPerEuro("XYZ", "2024"));
 }
 
+// Where the rate of the offer's year is not known the price says which it is; an offer without a
+// date takes the newest.
+TEST(Price, TheSourceNamesTheYearOfTheRate) {
+  Part part = Reservoir("r");
+  part.offers = {{"Shop", 1, "USD", 1, "2014-07", ""}};
+  DerivePrice(part);
+  EXPECT_EQ(part.numbers["price_eur"].source,
+            "offer of Shop, 2014-07: 1 USD, 1.33 USD/EUR of 2013");
+  part.offers = {{"Shop", 1, "USD", 1, "", ""}};
+  DerivePrice(part);
+  EXPECT_EQ(part.numbers["price_eur"].source, "offer of Shop: 1 USD, 1.17 USD/EUR of 2026");
+}
+
 TEST(Price, TheNewestOfferCounts) {
   EXPECT_EQ(NewestOffer({}), nullptr);
   const std::vector<Offer> offers = {{"no date", 1, "EUR", 1, "", ""},
@@ -58,7 +71,7 @@ TEST(Price, IsThatOfAPiece) {
   const Number& price = part.numbers["price_eur"];
   EXPECT_DOUBLE_EQ(price.value, 2.0);
   EXPECT_EQ(price.provenance, Provenance::kDerived);
-  EXPECT_EQ(price.source, "offer of Shop, 2024-03-01: 21.6 USD for 10, 1.08 USD/EUR");
+  EXPECT_EQ(price.source, "offer of Shop, 2024-03-01: 21.6 USD for 10, 1.08 USD/EUR of 2024");
   EXPECT_FALSE(price.uncertainty);
   const Part once = part;
   DerivePrice(part);

@@ -27,7 +27,7 @@ const ForeignTable kPriceLists[] = {
       {0, "power_max_w", 10.8},
       {0, kMass, 0.185},
       {0, kBody, 105},
-      {0, "price_eur", 48.5 / 1.13},
+      {0, "price_eur", 48.5 / 1.17},
       {1, kBody, 214.2},
       {1, "power_max_w", 18}}},
     {"knf.csv",
@@ -47,6 +47,16 @@ const ForeignTable kPriceLists[] = {
       {0, "power_max_w", 3.6},
       {0, kBody, 36.8253563862979},
       {1, kBody, 49.4800842940392}}},
+    {"packs_wh.csv",
+     "battery",
+     {"tattu-ta-1300-4s", "ansmann-2447-3049"},
+     {{0, "nominal_voltage_v", 14.8},
+      {0, "capacity_ah", 1.3},
+      {0, "current_max_a", 97.5},
+      {0, kMass, 0.155},
+      {1, "nominal_voltage_v", 7.2},
+      {1, "capacity_ah", 2.6},
+      {1, "current_max_a", 5.2}}},
     {"cells_18650.csv",
      "battery",
      {"molicel-inr-18650-p26a", "samsung-inr18650-35e"},
@@ -66,7 +76,7 @@ const ForeignTable kPriceLists[] = {
       {0, kInner, 4.064},
       {0, kPerMetre, 0.0068 / 0.3048},
       {0, kPressure, 999.739807508},
-      {0, "price_eur_per_m", 1.2 / 1.13},
+      {0, "price_eur_per_m", 1.2 / 1.17},
       {1, kInner, 6.35}}},
     {"tubing_rolls.tsv",
      "tubing",
@@ -111,8 +121,8 @@ const ForeignTable kPriceLists[] = {
       {0, kMass, 0.0090718474},
       {0, kBody, 3.02},  // mass over 3 g/mL
       {0, kPressure, 2068.42718795},
-      {0, "price_eur", 1.999 / 1.13},
-      {1, "price_eur", 2.999 / 1.13}}},
+      {0, "price_eur", 1.999 / 1.17},
+      {1, "price_eur", 2.999 / 1.17}}},
     {"tanks_dollar.csv",
      "reservoir",
      {"viair-91014", "viair-91028"},
@@ -120,7 +130,7 @@ const ForeignTable kPriceLists[] = {
       {0, kMass, 3.401942775},
       {0, kPressure, 1034.213593975},
       {0, kBody, 7173.68681336383},  // π/4·6.2²·14.5 in³
-      {0, "price_eur", 89.95 / 1.13}}},
+      {0, "price_eur", 89.95 / 1.17}}},
     {"packs_lipo.csv",
      "battery",
      {"tattu-ta-rl-1550-4s", "gens-ace-ga-b-2200-3s"},
@@ -129,7 +139,7 @@ const ForeignTable kPriceLists[] = {
       {0, "current_max_a", 147.25},
       {0, kBody, 103.36},
       {0, kMass, 0.188},  // 0.00545 kg·(22.94 Wh)^0.9345·95^0.1346
-      {0, "price_eur", 27.99 / 0.847},
+      {0, "price_eur", 27.99 / 0.869},
       {1, "cells_series", 3},
       {1, kBody, 83.16}}},
 };
@@ -211,6 +221,50 @@ TEST(PriceLists, WhatMayBeReadInTwoWaysIsRefusedWithTheQuestion) {
   EXPECT_THAT(error("Currency", "¥"), HasSubstr("currency must be one of"));
 }
 
+// 19.2 Wh at 7.4 V are 2.59… Ah.
+TEST(PriceLists, ACellMayGiveTheEnergyOfAPack) {
+  const Read read = ReadAs("battery",
+                           "Maker,Part no,Chemistry,V,Capacity (Ah),Max. current (A),Weight (g)\n"
+                           "SLS,X2,LiPo,7.4,19.2 Wh,20,120\n");
+  ASSERT_EQ(read.parts.size(), 1u);
+  const Number& capacity = read.parts[0].numbers.at("capacity_ah");
+  EXPECT_NEAR(capacity.value, 19.2 / 7.4, 1e-12);
+  EXPECT_EQ(capacity.provenance, Provenance::kDerived);
+  EXPECT_EQ(capacity.source, "capacity = energy / nominal voltage, 19.2 Wh, 7.4 V");
+}
+
+// 12 and 24 are volts: as millivolts and as kilovolts no pump runs on them.
+TEST(PriceLists, VoltagesAreVoltsWhereNothingElseIsInTheRangeOfTheField) {
+  const auto questions = [](const std::string& first) {
+    const Read read =
+        ReadAs("battery", "Maker,Part no,Voltage,Capacity (Ah)\nA,1," + first + ",1\nA,2,12,1\n");
+    std::vector<std::string> texts;
+    for (const Question& question : read.reading.questions) texts.push_back(question.text);
+    return texts;
+  };
+  EXPECT_THAT(questions("24"), IsEmpty());
+  EXPECT_THAT(questions("12000"), testing::ElementsAre(HasSubstr("in which unit is")));
+}
+
+TEST(PriceLists, NormalLitresAreAskedForTheirTemperature) {
+  const std::string table =
+      "Maker,Part no,Voltage (V),Max. pressure (kPa),Flow (%)\nA,1,12,100,5\n";
+  const auto with = [&](const std::string& unit) {
+    std::string text = table;
+    return text.replace(text.find('%'), 1, unit);
+  };
+  const Read open = ReadAs("compressor", with("Nl/min"));
+  ASSERT_EQ(open.reading.questions.size(), 1u);
+  EXPECT_THAT(open.reading.questions[0].text, HasSubstr("0 °C or at 20 °C"));
+  EXPECT_EQ(open.reading.questions[0].answers,
+            (std::vector<std::string>{"free_flow_l_per_min [Nl/min (0 °C)]",
+                                      "free_flow_l_per_min [Nl/min (20 °C)]"}));
+  TableOptions options;
+  options.columns["Flow (Nl/min)"] = open.reading.questions[0].answers[0];
+  EXPECT_THAT(ReadAs("compressor", with("Nl/min"), options).reading.questions, IsEmpty());
+  EXPECT_THAT(ReadAs("compressor", with("NL/min (0 °C)")).reading.questions, IsEmpty());
+}
+
 TEST(PriceLists, APumpWithoutWhatItsCurveNeedsIsRefused) {
   const Read read = ReadAs("compressor", "Maker;SKU;Flow (l/min);Max pressure (bar)\nA;B;8;1,5\n");
   ASSERT_FALSE(read.errors.empty());
@@ -248,6 +302,14 @@ TEST(Headings, OfForeignPriceListsAreKnown) {
       {"vacuum_pump", "Ultimate vacuum (kPa)", "vacuum_max_kpa_gauge [kPa]"},
       {"battery", "C rating", "c_rate"},
       {"battery", "mAh", "capacity_ah [mAh]"},
+      {"battery", "Wh", "energy_wh [Wh]"},
+      {"battery", "Capacity (Wh)", "energy_wh [Wh]"},
+      {"battery", "Kapazität [Wh]", "energy_wh [Wh]"},
+      {"battery", "Energy (Wh)", "energy_wh [Wh]"},
+      {"battery", "Capacity (Ah)", "capacity_ah [Ah]"},
+      {"battery", "V", "nominal_voltage_v [V]"},
+      {"compressor", "V", "voltage_v [V]"},
+      {"reservoir", "V", ""},
       {"battery", "CDR (A)", "current_max_a [A]"},
       {"battery", "Diameter (mm)", "body_diameter_mm [mm]"},
       {"battery", "L x W x H (mm)", "body_size_mm [mm]"},

@@ -156,6 +156,8 @@ TEST(Quantity, ReadsTheUnitsOfRequests) {
       {"10 scfm", "flow_l_per_min_anr_max", 283.16846592},
       {"100 Nl/min (20 °C)", "flow_l_per_min_anr_max", 100},
       {"100 Nl/min (0 °C)", "flow_l_per_min_anr_max", 108.7440005},
+      {"100 NL/min, 0 °C", "flow_l_per_min_anr_max", 108.7440005},
+      {"100 NL/min, 20 °C", "flow_l_per_min_anr_max", 100},
       {"6 Nm3/h at 0 °C", "flow_l_per_min_anr_max", 108.7440005},
       {"5 Hz", "natural_frequency_rad_per_s", 31.41592654},
       {"0.5 rad", "braid_angle_deg", 28.64788976},

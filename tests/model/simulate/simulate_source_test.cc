@@ -147,6 +147,26 @@ TEST(SimulateSource, CompressorStopsOnTime) {
   }
 }
 
+// An actuator that rides with a reservoir which slow pumps fill is nearer to equal pressures than
+// steps are exact, right where the line's flow bends: both rise by what the pumps deliver, and the
+// bend takes no steps without end.
+TEST(SimulateSource, AnActuatorRidesOnABendOfItsLine) {
+  GroupRig group = OneActuator(6e5, 1.0, {5e-10, 0.3});
+  group.initial_pressure_pa = 3e5;
+  group.schedule = {{0.0, kInflate}};
+  SimulateOptions options = Until(5.0);
+  options.linear_ratio = 1.0 - 1e-9;
+  const double bend_m3_per_s = 5e-10 * 3e5 * std::sqrt(2e-9 / (1.0 - 0.3));
+  ReservoirSource source = Pumped(3e5, 6e5);
+  const double pump_m3_per_s = 0.7 * bend_m3_per_s * 1.05e-3 / 50e-6;
+  source.compressor.free_air_m3_per_s = MonotoneCurve({1e5, 6e5}, {pump_m3_per_s, pump_m3_per_s});
+  const Response r = Simulate(RigOf(source, {group}), options);
+  ASSERT_EQ(r.status, SimulateStatus::kDone) << r.detail;
+  EXPECT_LT(r.steps, 80'000u);
+  EXPECT_NEAR(r.source_final_pressure_pa, 3e5 + 5.0 * 1e5 * pump_m3_per_s / 1.05e-3, 0.03);
+  EXPECT_NEAR(r.groups[0].final_pressure_pa, r.source_final_pressure_pa, 0.03);
+}
+
 // The volume while the pressure rises: the same volume changes nothing, a smaller one fills in
 // proportion faster and leaves the fall alone.
 TEST(SimulateSource, VolumeWhileRisingCountsOnlyWhileRising) {

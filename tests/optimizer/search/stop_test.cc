@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include "optimizer/search/tree_search.h"
@@ -180,6 +181,51 @@ TEST(StopTest, TimeLimitReachesALeaf) {
   const Answer truth = optimizer::SearchTrees(problem, Within(60.0));
   ASSERT_FALSE(truth.designs.empty());
   EXPECT_LE(answer.proof.lower_bound, truth.designs[0].objective);
+}
+
+// One group alone, whose designs nothing but their confirmation simulates.
+Problem ConfirmedProblem() {
+  Problem problem = EasyProblem(5, {Configuration::kCylinder});
+  problem.parts.valves.resize(2);
+  problem.parts.tubing.resize(2);
+  problem.count = 2;
+  return problem;
+}
+
+TEST(StopTest, TimeLimitReachesTheFirstDesignsConfirmation) {
+  const Problem problem = ConfirmedProblem();
+  const Answer truth = optimizer::SearchTrees(problem, Within(60.0));
+  ASSERT_FALSE(truth.designs.empty());
+  std::atomic<bool> begun = false;
+  SearchOptions options = Within(0.05);
+  options.periodic = Endless(begun);
+  const Answer answer = optimizer::SearchTrees(problem, options);
+  EXPECT_TRUE(begun);
+  EXPECT_EQ(answer.status, Status::kFeasible);
+  EXPECT_TRUE(answer.designs.empty());
+  EXPECT_EQ(answer.proof.gap, 1.0);
+  EXPECT_LE(answer.proof.lower_bound, truth.designs[0].objective);
+  EXPECT_GT(answer.seconds, 1.0);  // its grace
+}
+
+TEST(StopTest, CancelReachesTheFirstDesignsConfirmationBeforeAndAfterTheLimit) {
+  for (const double limit_s : {1e6, 0.05}) {
+    SCOPED_TRACE(limit_s);
+    std::atomic<bool> cancel = false;
+    SearchOptions options = Within(limit_s);
+    options.cancelled = [&] { return cancel.load(); };
+    options.periodic = [&](const model::Rig&, double, const model::SimulateOptions& simulate,
+                           const model::PeriodicOptions&) {
+      for (int i = 0; i < 30 && !simulate.cancelled(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      cancel = true;
+      while (!simulate.cancelled()) std::this_thread::yield();
+      return Failed(model::PeriodicStatus::kCancelled);
+    };
+    const Answer answer = optimizer::SearchTrees(ConfirmedProblem(), options);
+    EXPECT_EQ(answer.status, Status::kCancelled);
+    EXPECT_TRUE(answer.designs.empty());
+  }
 }
 
 // What a stopped search says of leaves that it did not decide is in its record.

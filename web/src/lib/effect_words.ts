@@ -23,6 +23,8 @@ const effectWords: Record<string, string> = {
   learned_conductance: 'a learned conductance of the line',
   learned_volume: 'a learned volume law',
   learned_sensor: 'a learned error of the sensor',
+  learned_supply: 'a learned error of the supply',
+  learned_valve: 'a learned error of the valve',
 };
 
 // A learned law says how many knots it has: "pressure_5".

@@ -121,6 +121,12 @@ TEST_P(Evaluation, DoesNotWorkBeyondWhatThePartsStand) {
       Answer(requirements_, With(given_, "/settings/source_pressure_kpa_gauge", 4e4));
   EXPECT_FALSE(burst.at("works").get<bool>());
   EXPECT_LT(burst.at("source_pressure_range_kpa_gauge").at(1), 4e4);
+  const std::string detail = burst.at("detail");
+  EXPECT_EQ(detail.find("the source pressure of 40000 kPa is above the range that works, "), 0u)
+      << detail;
+  const Json slack = Answer(requirements_, With(given_, "/settings/source_pressure_kpa_gauge", 1));
+  EXPECT_NE(slack.at("detail").get<std::string>().find(" is below the range that works, "),
+            std::string::npos);
 }
 
 // Groups that are not alike and inflate at once out of one reservoir are simulated.
