@@ -9,6 +9,9 @@
 #include <cmath>
 
 #include "optimizer/bounds/box.h"
+#include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/full_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -30,6 +33,24 @@ constexpr int kDivisions = 32;
 Amounts Made(const Problem& problem, const VolumeNeed& volume, double volume_m3) {
   return CustomReservoir(problem, volume_m3,
                          std::max(LeastSourcePa(problem), volume.need.source_pa));
+}
+
+// Of a single choice of pumps: raises the least stop pressure to what the strokes of several groups
+// ask out of a full reservoir. False where none is enough. Groups that begin at once count with
+// what each takes from the others where all lines are `single`: of a box the others may take less
+// than its best lines do. Else each counts as if it were alone.
+bool RaiseExactly(const Problem& problem, const Candidate& candidate, bool single, double tolerance,
+                  ReservoirNeed& need) {
+  const auto excess = [&](double stop_pa) {
+    const OperatingPoint fastest{stop_pa, need.high_m3, need.low_m3};
+    const std::optional<double> together =
+        single ? ExcessWhenFull(problem, candidate, fastest) : std::nullopt;
+    return together ? *together : AloneStrokeExcess(problem, candidate, fastest);
+  };
+  const std::optional<double> least_pa =
+      RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
+  if (least_pa) need.source_pa = *least_pa;
+  return least_pa.has_value();
 }
 
 }  // namespace
@@ -210,11 +231,20 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
   } else {
     volume.need.source_max_pa =
         std::min(volume.need.source_max_pa, plan_.reservoirs.corners[volume.node].pressure_max_pa);
-    const std::optional<ReservoirNeed> need =
-        LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need,
-                           single ? kSingleTolerance : kBoxTolerance);
-    if (!need) return std::nullopt;
-    volume.need = *need;
+    const double tolerance = single ? kSingleTolerance : kBoxTolerance;
+    const auto raise = [&] {
+      const std::optional<ReservoirNeed> need =
+          LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need, tolerance);
+      if (need) volume.need = *need;
+      return need.has_value();
+    };
+    if (!raise()) return std::nullopt;
+    if (problem_.groups.size() > 1 && Node(box, plan_.compressor_slot).single()) {
+      const double alone_pa = volume.need.source_pa;
+      if (!RaiseExactly(problem_, CandidateOf(box), single, tolerance, volume.need))
+        return std::nullopt;
+      if (volume.need.source_pa > alone_pa && !raise()) return std::nullopt;
+    }
     if (IsMade(volume)) volume.objective = ObjectiveOf(problem_.objective, LeastOf(volume));
     volume.look = box.look;
     volume.energy_known = !EnergyMayGrow(problem_, load);

@@ -101,6 +101,10 @@ double InflateWindow(const Problem& problem, int group) {
   return gait.inflate_fraction / (problem.frequency_hz * gait.strokes_per_period);
 }
 
+double RiseWindow(const Problem& problem, int group) {
+  return std::min(problem.groups[group].rise_time_max_s, InflateWindow(problem, group));
+}
+
 double DeflateWindow(const Problem& problem, int group) {
   const Gait& gait = problem.groups[group].gait;
   return (1.0 - gait.inflate_fraction) / (problem.frequency_hz * gait.strokes_per_period);

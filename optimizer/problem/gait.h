@@ -37,6 +37,8 @@ int BegunAtOnce(const Problem& problem);
 // Most time, s, that one inflation and one deflation of a group may take.
 double InflateWindow(const Problem& problem, int group);
 double DeflateWindow(const Problem& problem, int group);
+// And the inflation until its rise target: its limit too counts.
+double RiseWindow(const Problem& problem, int group);
 
 enum class Meeting {
   kAlone,     // one squad

@@ -9,24 +9,6 @@
 #include "optimizer/pump/stroke_bound.h"
 
 namespace plenum::optimizer {
-namespace {
-
-constexpr double kIntervalRatio = 1.25;
-constexpr int kNeedDivisions = 8;        // of its range, for the energy
-constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower end is used
-
-// Air that the reservoir must give by the end of the rise times, by (2).
-double GivenByReservoir(const Problem& problem, const PumpFacts& facts, double air_to_target_m3) {
-  return IsBurst(problem) ? std::max(0.0, air_to_target_m3 - facts.early_m3) : 0.0;
-}
-
-double LeastStopPressure(const Problem& problem, const PumpFacts& facts, double air_to_target_m3,
-                         double reservoir_m3) {
-  return facts.target_pa + ContentPerVolume(problem) *
-                               GivenByReservoir(problem, facts, air_to_target_m3) / reservoir_m3;
-}
-
-}  // namespace
 
 double AirToTarget(const Problem& problem, int group, const model::Chamber& chamber) {
   const ActuatorGroup& actuators = problem.groups[group];
@@ -36,6 +18,52 @@ double AirToTarget(const Problem& problem, int group, const model::Chamber& cham
 }
 
 namespace {
+
+constexpr double kIntervalRatio = 1.25;
+constexpr int kNeedDivisions = 8;        // of its range, for the energy
+constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower end is used
+
+// Least stop pressure by (2): of the groups that are not placed yet the one that asks least comes
+// last, of those that may.
+double LeastStopPressure(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
+                         double highest_pa, double low_m3, double high_m3) {
+  double highest_target_pa = 0.0;
+  for (const ActuatorGroup& group : problem.groups)
+    highest_target_pa = std::max(highest_target_pa, RiseTarget(problem, group));
+  if (!IsBurst(problem)) return highest_target_pa;
+  struct Reach {
+    double target_pa, within_s, least_s, air_m3;
+  };
+  std::vector<Reach> open;
+  double drawn_m3 = 0.0;
+  for (int g = 0; g < static_cast<int>(load.lines.size()); ++g) {
+    const Line& line = *load.lines[g];
+    open.push_back(
+        {RiseTarget(problem, problem.groups[g]), RiseWindow(problem, g),
+         LeastRiseTime(problem, g, line, facts, {highest_pa, highest_pa, low_m3, high_m3}),
+         AirToTarget(problem, g, line.chamber)});
+    drawn_m3 += open.back().air_m3;
+  }
+  const double most_m3_per_s = facts.rates.Delivery(problem.ambient.pressure_pa);
+  const double per_m3_pa = ContentPerVolume(problem) / high_m3;
+  const auto asked = [&](const Reach& last) {
+    return last.target_pa + per_m3_pa * std::max(0.0, drawn_m3 - most_m3_per_s * last.within_s);
+  };
+  double least_pa = highest_target_pa;
+  while (!open.empty()) {
+    double slowest_s = 0.0;
+    for (const Reach& reach : open) slowest_s = std::max(slowest_s, reach.least_s);
+    auto last = open.end();
+    for (auto reach = open.begin(); reach != open.end(); ++reach) {
+      const bool may = reach->least_s == slowest_s || slowest_s <= reach->within_s;
+      if (may && (last == open.end() || asked(*reach) < asked(*last))) last = reach;
+    }
+    least_pa = std::max(least_pa, asked(*last));
+    drawn_m3 -= last->air_m3;
+    open.erase(last);
+  }
+  return least_pa;
+}
 
 // Highest stop pressure that `bearable` accepts, from one that it accepts up to `high_pa`; a little
 // too high rather than too low.
@@ -59,7 +87,6 @@ PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& li
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const double strokes = burst ? 1.0 : problem.groups[g].gait.strokes_per_period;
     load.air_m3 += strokes * LeastAirPerStroke(problem, g, *lines[g]);
-    load.air_to_target_m3 += AirToTarget(problem, g, lines[g]->chamber);
     load.coil_j += CoilEnergyPerCycle(problem, g, *lines[g], lines[g]->inflate_time_least_s);
   }
   return load;
@@ -161,9 +188,9 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
   };
   need.source_max_pa = std::min(need.source_max_pa, window.high_pa);
   // Cheap first: the mass balance (2) at the largest volume.
-  need.source_pa =
-      std::max({need.source_pa, window.low_pa,
-                LeastStopPressure(problem, facts, load.air_to_target_m3, need.high_m3)});
+  need.source_pa = std::max(
+      {need.source_pa, window.low_pa,
+       LeastStopPressure(problem, facts, load, need.source_max_pa, need.low_m3, need.high_m3)});
   if (!(need.source_pa <= need.source_max_pa)) return std::nullopt;
   const auto excess = [&](double p) {
     return LeastStrokeExcess(problem, load.lines, facts,

@@ -1,14 +1,17 @@
 // What a compressor must at least bear to feed the strokes, by intervals of reservoir volumes.
 //
-// Let A be the air of a cycle, A_t the part of it up to the rise targets, p_t the lowest target,
-// and m the air pumped since a stroke began, all ANR; κ = P0·T/T0 converts to content. The
-// reservoir holds p_1 when the stroke begins: the stop pressure p_s, or less where groups take
-// turns.
+// Let A be the air of a cycle and m the air pumped since a stroke began, both ANR; κ = P0·T/T0
+// converts to content. The reservoir holds p_1 when the stroke begins: the stop pressure p_s, or
+// less where groups take turns.
 //  (1) No more than A is drawn in a cycle, so the m-th bit of air is pumped at
 //      p(m) ≥ p_1 − κ·(A−m)/V.
-//  (2) Where all strokes begin at once: within the rise times the pumps deliver at most `early`, so
-//      the reservoir gives at least A_t − early and still ends at or above p_t:
-//      p_s ≥ p_t + κ·(A_t − early)/V.
+//  (2) Where all strokes begin at once: when group g comes to its target p_g as the last of some,
+//      these have taken the air A_S up to their targets, of which the pumps have delivered at most
+//      Q_max·t_g, t_g the limit on its rise time; the reservoir is no lower than g:
+//      p_s ≥ p_g + κ·(A_S − Q_max·t_g)/V.
+//      Which comes last is not known: of all orders the one that asks least, found from the last
+//      group on (Lawler's rule, Management Science 19, 1973), without those in which a group comes
+//      sooner than it could alone. No stop pressure is below a target.
 //  (3) p_1 is at least what a group needs that is alone on the reservoir (stroke_bound.h), and of
 //      two groups that take turns each must leave what the other needs.
 // Energy per air, made non-falling in pressure from below, and time per air, which does not fall
@@ -45,8 +48,8 @@ double AirToTarget(const Problem& problem, int group, const model::Chamber& cham
 // below.
 struct PumpLoad {
   const std::vector<const Line*>& lines;  // one per group
-  // Of a burst (gait.h); where there are none of all strokes of a cycle, and of one of each.
-  double air_m3 = 0.0, air_to_target_m3 = 0.0;
+  // Of a burst (gait.h); where there are none of all strokes of a cycle.
+  double air_m3 = 0.0;
   double coil_j = 0.0;  // per cycle
 };
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines);

@@ -99,22 +99,6 @@ std::vector<HoldingPump> MakeHolding(const Problem& problem, const model::Compre
   return all;
 }
 
-PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables) {
-  PumpFacts facts;
-  facts.target_pa = kUnlimited;
-  const bool burst = IsBurst(problem);
-  double rising_s = 0.0;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const ActuatorGroup& group = problem.groups[g];
-    facts.target_pa = std::min(facts.target_pa, RiseTarget(problem, group));
-    const double rise_s = std::min(group.rise_time_max_s, InflateWindow(problem, g));
-    rising_s = burst ? std::max(rising_s, rise_s) : rising_s + rise_s;
-  }
-  facts.early_m3 = rising_s / tables.seconds_per_m3.front();
-  facts.rates = {problem.ambient.pressure_pa, highest_pa, std::move(tables)};
-  return facts;
-}
-
 }  // namespace
 
 PumpRates::PumpRates(double low_pa, double high_pa, PumpTables tables)
@@ -136,8 +120,8 @@ PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& cu
                         int cells) {
   const double ambient_pa = problem.ambient.pressure_pa;
   const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
-  PumpFacts facts =
-      MakeFacts(problem, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, cells}));
+  PumpFacts facts;
+  facts.rates = {ambient_pa, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, cells})};
   facts.exact = true;
   facts.holding = MakeHolding(problem, curve, pumps, {ambient_pa, highest_pa, cells});
   return facts;
@@ -174,9 +158,11 @@ PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarseP
   const auto table = [](const std::array<double, kCoarseCells>& values) {
     return std::vector<double>(values.begin(), values.end());
   };
-  PumpFacts facts = MakeFacts(
-      problem, highest_pa,
-      {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3), table(coarse.current_a)});
+  PumpFacts facts;
+  facts.rates = {
+      problem.ambient.pressure_pa,
+      highest_pa,
+      {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3), table(coarse.current_a)}};
   facts.holding = coarse.holding;
   return facts;
 }

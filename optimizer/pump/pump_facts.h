@@ -102,8 +102,6 @@ struct HoldingPump {
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single
 // choice, or from the coarse tables of many: then each number holds for the best of them.
 struct PumpFacts {
-  double early_m3 = 0.0;   // the most that they pump during the rise times of a cycle, ANR
-  double target_pa = 0.0;  // p_t
   PumpRates rates;
   bool exact = false;                     // of a single choice
   std::vector<HoldingPump> holding = {};  // actuators of each group; empty: pumps do not hold on

@@ -124,7 +124,7 @@ double Late(double share) { return 1.0 / (share + 1e-3) - 1.0; }
 double StrokeExcessBound(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
                          const StrokeStart& start, double* left_pa) {
   const double window_s = InflateWindow(problem, g);
-  const double rise_max_s = std::min(problem.groups[g].rise_time_max_s, window_s);
+  const double rise_max_s = RiseWindow(problem, g);
   Stroke stroke(problem, g, line, pumps, start);
   if (!stroke.Reach(kStrokePanels, rise_max_s)) return Late(stroke.Share(kStrokePanels));
   const double rise_s = stroke.time_s();
@@ -147,6 +147,13 @@ double LeastStrokeExcess(const Problem& problem, const std::vector<const Line*>&
   for (int g = 0; g < static_cast<int>(lines.size()); ++g)
     excess = std::max(excess, LeastStrokeExcess(problem, g, *lines[g], pumps, start));
   return excess;
+}
+
+double LeastRiseTime(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
+                     const StrokeStart& start) {
+  const double limit_s = RiseWindow(problem, g);
+  Stroke stroke(problem, g, line, pumps, start);
+  return stroke.Reach(kStrokePanels, limit_s) ? stroke.time_s() : limit_s;
 }
 
 double LeastInflateTime(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,

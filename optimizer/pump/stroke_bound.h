@@ -37,6 +37,10 @@ double LeastStrokeExcess(const Problem& problem, int group, const Line& line,
 double LeastStrokeExcess(const Problem& problem, const std::vector<const Line*>& lines,
                          const PumpFacts& pumps, const StrokeStart& start);
 
+// Time to the rise target, at least; no more than the limit on it.
+double LeastRiseTime(const Problem& problem, int group, const Line& line, const PumpFacts& pumps,
+                     const StrokeStart& start);
+
 // Time to inflate to the operating pressure, at least; no more than half of the period.
 double LeastInflateTime(const Problem& problem, int group, const Line& line, const PumpFacts& pumps,
                         const StrokeStart& start);

@@ -62,10 +62,6 @@ double RegulatedStroke(const Problem& problem, const Candidate& candidate, doubl
   return open_s - std::max(0.0, full_left_s);
 }
 
-double RiseLimit(const Problem& problem, int g) {
-  return std::min(problem.groups[g].rise_time_max_s, InflateWindow(problem, g));
-}
-
 // What is simulated together, in its periodic state; false where the simulator did not get there.
 bool SimulateTogether(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, const Together& together, Strokes& strokes) {
@@ -342,7 +338,7 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
     const model::ReservoirStroke stroke = model::FillFromReservoir(
         MakeStrokeInput(problem, candidate, point, g, FilledAtOnce(problem, g), point.source_pa));
     if (!stroke.reached) return kUnlimited;
-    excess = std::max({excess, stroke.rise_s / RiseLimit(problem, g) - 1.0,
+    excess = std::max({excess, stroke.rise_s / RiseWindow(problem, g) - 1.0,
                        stroke.inflate_s / InflateWindow(problem, g) - 1.0});
   }
   return excess;

@@ -9,10 +9,18 @@
 #ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_FULL_STROKES_H_
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_FULL_STROKES_H_
 
+#include <optional>
+
 #include "optimizer/evaluate/candidate.h"
 
 namespace plenum::optimizer {
 
+// By how much even those exceed a limit at most, relative, and +∞ where they never get there; none
+// where the strokes of a candidate do not meet on the reservoir of pumps or one integration does
+// not serve. Falls with the stop pressure and with the volume, as far as the point has the most of
+// it while the reservoir falls and the least while it rises.
+std::optional<double> ExcessWhenFull(const Problem& problem, const Candidate& candidate,
+                                     const OperatingPoint& point);
 // Whether even those miss a limit. False where the strokes of a candidate do not meet on the
 // reservoir of pumps, and where the simulator does not say.
 bool TooSlowWhenFull(const Problem& problem, const Candidate& candidate,

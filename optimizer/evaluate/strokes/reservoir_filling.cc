@@ -154,6 +154,7 @@ class ReservoirFilling {
       for (std::size_t g = 0; g < rig_.size(); ++g)
         if (rig_.valves[g] != Valve::kClosed) end_s = std::min(end_s, rig_.strokes[g].window_s);
       if (!Advance(end_s, stop)) return {};
+      if (AllKnown()) return Found();
       for (std::size_t g = 0; g < rig_.size(); ++g)
         if (rig_.valves[g] != Valve::kClosed && rig_.strokes[g].window_s <= now_s_) {
           if (std::isinf(found_.inflate_s[g])) return Found();
@@ -164,6 +165,18 @@ class ReservoirFilling {
   }
 
  private:
+  // Of rises, where only they are asked for.
+  bool AllKnown() const {
+    bool some_left = false, all_asked = true;
+    for (std::size_t g = 0; g < rig_.size(); ++g) {
+      const bool risen = std::isfinite(found_.rise_s[g]);
+      if (!risen && rig_.strokes[g].rise_limit_s < now_s_) return true;
+      some_left = some_left || !risen;
+      all_asked = all_asked && std::isfinite(rig_.strokes[g].rise_limit_s);
+    }
+    return all_asked && !some_left;
+  }
+
   ReservoirStrokes Found() {
     found_.done = true;
     found_.end_s = now_s_;
@@ -188,7 +201,7 @@ class ReservoirFilling {
     double step_s = kFirstStep * (end_s - now_s_);
     bool restart = true;
     SetReleased();
-    for (int i = 0; now_s_ < end_s && rig_.AnyOpen() && !rig_.AtRest(); ++i) {
+    for (int i = 0; now_s_ < end_s && rig_.AnyOpen() && !rig_.AtRest() && !AllKnown(); ++i) {
       if (i == kStepsMax || (stop && i % 64 == 0 && stop())) return false;
       if (restart) stepper_.Start(rhs, now_s_, state_, step_s);
       if (stepper_.Step(rhs, end_s - now_s_, norm) == model::StepResult::kNotFinite) return false;
@@ -200,17 +213,24 @@ class ReservoirFilling {
       if (rig_.full) state_[rig_.size()] = rig_.in.stop_pa;
       stepper_.CountHeldDown(!restart && AnyHeldDown(), rhs);
     }
-    if (rig_.AnyOpen()) now_s_ = end_s;
+    if (rig_.AnyOpen() && !AllKnown()) now_s_ = end_s;
     return true;
   }
 
+  // A small reservoir comes closer to what it fills faster than that to it.
   bool AnyHeldDown() const {
-    for (std::size_t g = 0; g < rig_.size(); ++g)
-      if (rig_.valves[g] == Valve::kOpen &&
-          IsHeldDown(stepper_.step(), stepper_.derivative()[g],
-                     stepper_.state()[rig_.size()] - stepper_.state()[g]))
-        return true;
-    return false;
+    const double reservoir_pa = ReservoirAt(1.0);
+    double chamber_per_s = 0.0, reservoir_per_s = 0.0;
+    for (std::size_t g = 0; g < rig_.size(); ++g) {
+      if (rig_.valves[g] != Valve::kOpen) continue;
+      const double chamber_pa = stepper_.state()[g], behind_pa = reservoir_pa - chamber_pa;
+      chamber_per_s = std::max(chamber_per_s, ApproachRate(stepper_.derivative()[g], behind_pa));
+      reservoir_per_s +=
+          ApproachRate(rig_.content_per_volume * rig_.Drawn(g, reservoir_pa, chamber_pa) /
+                           rig_.in.volume_falling_m3,
+                       behind_pa);
+    }
+    return IsHeldDown(stepper_.step(), chamber_per_s + reservoir_per_s);
   }
 
   void SetReleased() {
@@ -325,7 +345,7 @@ class ReservoirFilling {
   // Lets chambers that have come up to the reservoir rise with it; true where some do, or where it
   // falls again.
   bool Follow() {
-    const double reservoir_pa = stepper_.state()[rig_.size()];
+    const double reservoir_pa = ReservoirAt(1.0);
     const double slope = Slope();
     const bool follows = rig_.AnyFollows();
     if (slope < 0.0) {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "model/strokes/reservoir_stroke.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::optimizer {
 
@@ -25,6 +26,9 @@ namespace plenum::optimizer {
 struct StrokeOfMany {
   model::ReservoirStrokeInput line;
   double window_s = 0.0;  // its valve is open no longer than this
+  // Finite where only rises are asked for, and whether each is in time: the strokes end once one is
+  // late or all have come.
+  double rise_limit_s = model::kNever;
 };
 
 struct ReservoirStrokes {

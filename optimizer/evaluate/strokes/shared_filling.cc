@@ -129,7 +129,8 @@ class SharedFilling {
   bool AnyHeldDown() const {
     for (std::size_t g = 0; g < groups_.size(); ++g)
       if (groups_[g].valve == Valve::kOpen &&
-          IsHeldDown(stepper_.step(), stepper_.derivative()[g], node_pa_ - stepper_.state()[g]))
+          IsHeldDown(stepper_.step(),
+                     ApproachRate(stepper_.derivative()[g], node_pa_ - stepper_.state()[g])))
         return true;
     return false;
   }

@@ -11,12 +11,15 @@
 
 namespace plenum::optimizer {
 
-// Whether stability holds down an explicit step: a chamber comes closer to what fills it at the
-// rate λ = (dp/dt)/(2·behind), since its flow grows with the root of how far it is behind; the
-// other may come as much closer meanwhile.
-inline bool IsHeldDown(double step_s, double slope_pa_per_s, double behind_pa) {
+// The rate λ, 1/s, at which what comes closer at this slope does so, less as it is nearer: the flow
+// grows with the root of how far one is behind the other.
+inline double ApproachRate(double slope_pa_per_s, double behind_pa) {
+  return behind_pa > 0.0 ? slope_pa_per_s / (2.0 * behind_pa) : 0.0;
+}
+// Whether stability holds down an explicit step.
+inline bool IsHeldDown(double step_s, double rate_per_s) {
   constexpr double kStable = 0.5;  // |λ|·h
-  return behind_pa > 0.0 && slope_pa_per_s * step_s > 2.0 * kStable * behind_pa;
+  return rate_per_s * step_s > kStable;
 }
 
 class StiffStepper {

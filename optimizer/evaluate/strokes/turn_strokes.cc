@@ -53,14 +53,15 @@ bool HasCurves(const Candidate& candidate) {
                      [](const Line* line) { return line->curve != nullptr; });
 }
 
+// `first`: only whether rises are in time is asked for.
 ReservoirStrokes Burst(const Problem& problem, const Candidate& candidate,
-                       const OperatingPoint& point, double start_pa) {
+                       const OperatingPoint& point, double start_pa, bool first = false) {
   std::vector<StrokeOfMany> many;
   many.reserve(problem.groups.size());
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
     many.push_back(
         {MakeStrokeInput(problem, candidate, point, g, FilledAtOnce(problem, g), start_pa),
-         InflateWindow(problem, g)});
+         InflateWindow(problem, g), first ? LatestRise(problem, g) : model::kNever});
   return FillFromReservoir(
       many, candidate.bench != nullptr ? candidate.bench->stop : std::function<bool()>());
 }
@@ -229,12 +230,17 @@ model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candid
   return input;
 }
 
-std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
-                                            const OperatingPoint& point) {
+double LatestRise(const Problem& problem, int group) {
+  constexpr double kSlack = 1.0 + 5e-5;  // what integrations may be off by
+  return kSlack * RiseWindow(problem, group);
+}
+
+std::optional<std::vector<double>> FirstAtOnce(const Problem& problem, const Candidate& candidate,
+                                               const OperatingPoint& point) {
   if (!IsBurst(problem) || !HasCurves(candidate)) return std::nullopt;
-  ReservoirStrokes found = Burst(problem, candidate, point, point.source_pa);
+  ReservoirStrokes found = Burst(problem, candidate, point, point.source_pa, true);
   if (!found.done) return std::nullopt;
-  return found;
+  return std::move(found.rise_s);
 }
 
 std::optional<Strokes> StrokesAtOnce(const Problem& problem, const Candidate& candidate,

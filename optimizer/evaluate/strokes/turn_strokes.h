@@ -8,6 +8,7 @@
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
 
 #include <optional>
+#include <vector>
 
 #include "model/strokes/reservoir_stroke.h"
 #include "optimizer/evaluate/strokes/reservoir_filling.h"
@@ -20,10 +21,13 @@ namespace plenum::optimizer {
 std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& candidate,
                                       const OperatingPoint& point);
 
-// The strokes of a burst of several groups out of a full reservoir; none where it is no burst, for
-// lines without a curve, after too many steps, or told to stop (reservoir_filling.h).
-std::optional<ReservoirStrokes> FirstAtOnce(const Problem& problem, const Candidate& candidate,
-                                            const OperatingPoint& point);
+// When a rise is too late for sure, s.
+double LatestRise(const Problem& problem, int group);
+// The rise times of a burst of several groups out of a full reservoir, until one is later than
+// that, so that later ones are not known; none where it is no burst, for lines without a curve,
+// after too many steps, or told to stop (reservoir_filling.h).
+std::optional<std::vector<double>> FirstAtOnce(const Problem& problem, const Candidate& candidate,
+                                               const OperatingPoint& point);
 
 // The periodic state of such bursts, as exact as reservoir_filling.h; none where FirstAtOnce() has
 // none.

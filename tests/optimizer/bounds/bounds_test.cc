@@ -434,6 +434,24 @@ TEST(BoundsTest, CompressorTwoGroups) {
   EXPECT_GT(checked, 2);
 }
 
+// Groups of unlike size, some of which have their targets long before others.
+TEST(BoundsTest, CompressorAtOnce) {
+  Random random(5);
+  int checked = 0;
+  for (std::uint64_t seed = 7; seed <= 12; ++seed) {
+    Problem problem = Drawn(seed, Configuration::kCompressor, 2 + static_cast<int>(seed % 2));
+    problem.simultaneous = true;
+    problem.limits = {1, 1, 1, 1, 1};
+    for (std::size_t g = 1; g < problem.groups.size(); ++g) {
+      problem.groups[g].chamber.rest_volume_m3 *= g == 1 ? 0.1 : 3.0;
+      problem.groups[g].rise_time_max_s *= g == 1 ? 0.5 : 6.0;
+    }
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    CheckAll(problem, random, 0.2, checked);
+  }
+  EXPECT_GT(checked, 10);
+}
+
 TEST(BoundsTest, CompressorOneGroup) {
   Random random(3);
   int checked = 0;

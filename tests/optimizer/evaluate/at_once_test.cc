@@ -112,6 +112,31 @@ TEST(AtOnceTest, EvacuatedAsSimulated) {
   EXPECT_LT(count.unable, count.asked / 5);
 }
 
+// A reservoir that is small beside the chambers goes with them long before they are full: neither
+// that nor a chamber which rises with it beside another asks for a simulation.
+TEST(AtOnceTest, SmallReservoirs) {
+  Count count;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Problem problem = Drawn(3 * seed + 1, false);
+    problem.frequency_hz *= 0.005;  // with time for the pumps to fill the chambers
+    for (optimizer::ActuatorGroup& group : problem.groups) {
+      group.chamber.rest_volume_m3 *= 4.0;
+      group.rise_time_max_s = optimizer::kUnlimited;
+    }
+    int looked = 0;
+    ForEachCombination(problem, [&](const Candidate& candidate) {
+      const optimizer::Window window = optimizer::SourceWindow(problem, candidate);
+      if (window.empty() || ++looked > 6) return;
+      const double volume_m3 = 1e-5;
+      const double stop_pa = window.low_pa + 0.9 * (window.high_pa - window.low_pa);
+      ExpectAsSimulated(problem, candidate, {stop_pa, volume_m3, volume_m3}, count);
+    });
+  }
+  EXPECT_GT(count.compared, 10);
+  EXPECT_EQ(count.unable, 0);
+}
+
 // A group in two halves is the group: one stroke of all chambers, integrated over their pressure.
 TEST(AtOnceTest, HalvesAreTheWhole) {
   int compared = 0;
