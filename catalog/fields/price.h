@@ -37,8 +37,9 @@ const Offer* NewestOffer(const std::vector<Offer>& offers);
 //
 //   price_eur = price / (units per euro · pack),
 //
-// with provenance `derived`, whatever the price was; its source says which rate that is. For tubing the field is price_eur_per_m and
-// `pack` counts metres. A part without an offer that counts keeps its price.
+// with provenance `derived`, whatever the price was; its source says which rate that is. For tubing
+// the field is price_eur_per_m and `pack` counts metres. A part without an offer that counts keeps
+// its price.
 void DerivePrice(Part& part);
 
 // Makes the part's price 0, as of one that is at hand.

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "optimizer/bounds/box.h"
-#include "optimizer/choices/make_line.h"
 #include "optimizer/choices/make_plan.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/stroke_bound.h"
@@ -233,47 +232,6 @@ TEST(BoundsTest, RegulatedOneGroup) {
       CheckAll(Drawn(seed, configuration, 1), random, 0.15, checked);
     }
   EXPECT_GT(checked, 300);
-}
-
-// With few lines a box knows the lightest that is fast enough on an unlimited source, whatever its
-// corner weighs.
-TEST(BoundsTest, LeastObjectiveOfLines) {
-  int above_corner = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Problem problem = Drawn(seed, Configuration::kCylinder, 1);
-    problem.groups[0].rise_time_max_s *= 0.7;
-    problem.groups[0].fall_time_max_s *= 0.7;
-    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, {Configuration::kCylinder});
-    if (plan->empty()) continue;
-    const optimizer::GroupTrees& trees = plan->groups[0];
-    double least = optimizer::kUnlimited;
-    for (std::size_t t = 0; t < trees.tubes.nodes.size(); ++t)
-      for (std::size_t f = 0; f < trees.fittings.nodes.size(); ++f)
-        for (std::size_t v = 0; v < trees.valves.nodes.size(); ++v) {
-          Line line;
-          if (trees.tubes.nodes[t].single() && trees.fittings.nodes[f].single() &&
-              trees.valves.nodes[v].single() &&
-              optimizer::MakeLine(
-                  problem, 0, model::Gas::kAir,
-                  {trees.tubes.corners[t], trees.fittings.corners[f], trees.valves.corners[v]},
-                  true, false, line) == Constraint::kNone)
-            least = std::min(least, line.objective);
-        }
-    Bounds bounds(problem, *plan);
-    Box root = bounds.Root();
-    const Constraint missed = bounds.Assess(root, -1);
-    if (std::isinf(least)) {
-      EXPECT_NE(missed, Constraint::kNone);
-    } else if (missed == Constraint::kNone) {
-      EXPECT_DOUBLE_EQ(root.lines[0]->objective, least);
-      above_corner +=
-          least > (trees.tubes.corners[0].objective + trees.fittings.corners[0].objective +
-                   trees.valves.corners[0].objective) *
-                      1.001;
-    }
-  }
-  EXPECT_GT(above_corner, 5);
 }
 
 // All that can be found of a box; whether it misses nothing.
