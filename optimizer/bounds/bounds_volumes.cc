@@ -35,20 +35,18 @@ Amounts Made(const Problem& problem, const VolumeNeed& volume, double volume_m3)
                          std::max(LeastSourcePa(problem), volume.need.source_pa));
 }
 
-// Of a single choice of pumps: raises the least stop pressure to what the strokes of several groups
-// ask out of a full reservoir. False where none is enough. Groups that begin at once count with
-// what each takes from the others where all lines are `single`: of a box the others may take less
-// than its best lines do. Else each counts as if it were alone.
-bool RaiseExactly(const Problem& problem, const Candidate& candidate, bool single, double tolerance,
-                  ReservoirNeed& need) {
+// Of single lines and pumps: raises the least stop pressure to what the strokes of several groups
+// ask out of a full reservoir, of groups that begin at once with what each takes from the others.
+// False where none is enough. For boxes it would not hold, whose other groups may take less than
+// their best lines do.
+bool RaiseExactly(const Problem& problem, const Candidate& candidate, ReservoirNeed& need) {
   const auto excess = [&](double stop_pa) {
     const OperatingPoint fastest{stop_pa, need.high_m3, need.low_m3};
-    const std::optional<double> together =
-        single ? ExcessWhenFull(problem, candidate, fastest) : std::nullopt;
+    const std::optional<double> together = ExcessWhenFull(problem, candidate, fastest);
     return together ? *together : AloneStrokeExcess(problem, candidate, fastest);
   };
   const std::optional<double> least_pa =
-      RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
+      RaisedFloor(excess, need.source_pa, need.source_max_pa, kSingleTolerance);
   if (least_pa) need.source_pa = *least_pa;
   return least_pa.has_value();
 }
@@ -239,10 +237,9 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
       return need.has_value();
     };
     if (!raise()) return std::nullopt;
-    if (problem_.groups.size() > 1 && Node(box, plan_.compressor_slot).single()) {
+    if (problem_.groups.size() > 1 && single) {
       const double alone_pa = volume.need.source_pa;
-      if (!RaiseExactly(problem_, CandidateOf(box), single, tolerance, volume.need))
-        return std::nullopt;
+      if (!RaiseExactly(problem_, CandidateOf(box), volume.need)) return std::nullopt;
       if (volume.need.source_pa > alone_pa && !raise()) return std::nullopt;
     }
     if (IsMade(volume)) volume.objective = ObjectiveOf(problem_.objective, LeastOf(volume));
