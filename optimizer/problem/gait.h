@@ -37,7 +37,7 @@ int BegunAtOnce(const Problem& problem);
 // Most time, s, that one inflation and one deflation of a group may take.
 double InflateWindow(const Problem& problem, int group);
 double DeflateWindow(const Problem& problem, int group);
-// And the inflation until its rise target: its limit too counts.
+// Most time, s, from the command until its rise target: within its own limit and the inflation's.
 double RiseWindow(const Problem& problem, int group);
 
 enum class Meeting {

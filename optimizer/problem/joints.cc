@@ -133,8 +133,7 @@ double JointConductance(const Problem& problem, int g) {
   const double air_m3 = (model::Content(chamber, chamber.operating_pressure_pa) -
                          model::Content(chamber, at_rest_pa)) *
                         model::StandardVolume(1.0, problem.ambient.temperature_k);
-  return kJointFactor * group.count * air_m3 /
-         (std::min(group.rise_time_max_s, InflateWindow(problem, g)) * upstream_pa);
+  return kJointFactor * group.count * air_m3 / (RiseWindow(problem, g) * upstream_pa);
 }
 
 double JointConductance(const Problem& problem) {

@@ -36,11 +36,13 @@ double LeastStopPressure(const Problem& problem, const PumpFacts& facts, const P
   };
   std::vector<Reach> open;
   double drawn_m3 = 0.0;
+  const bool orders = load.lines.size() > 1;  // else there is but one
   for (int g = 0; g < static_cast<int>(load.lines.size()); ++g) {
     const Line& line = *load.lines[g];
     open.push_back(
         {RiseTarget(problem, problem.groups[g]), RiseWindow(problem, g),
-         LeastRiseTime(problem, g, line, facts, {highest_pa, highest_pa, low_m3, high_m3}),
+         orders ? LeastRiseTime(problem, g, line, facts, {highest_pa, highest_pa, low_m3, high_m3})
+                : 0.0,
          AirToTarget(problem, g, line.chamber)});
     drawn_m3 += open.back().air_m3;
   }
@@ -55,6 +57,7 @@ double LeastStopPressure(const Problem& problem, const PumpFacts& facts, const P
     for (const Reach& reach : open) slowest_s = std::max(slowest_s, reach.least_s);
     auto last = open.end();
     for (auto reach = open.begin(); reach != open.end(); ++reach) {
+      // The others have to come before its limit.
       const bool may = reach->least_s == slowest_s || slowest_s <= reach->within_s;
       if (may && (last == open.end() || asked(*reach) < asked(*last))) last = reach;
     }

@@ -120,44 +120,50 @@ void DeriveBody(Reader& reader, const catalog::Family& family, catalog::Part& pa
     TakeDerived(reader, *FieldOf(family, kBody), catalog::BodyVolumeOf(body), part);
 }
 
-// {"c_rate": 25} or "25C".
-void DeriveCurrent(Reader& reader, const catalog::Family& family, catalog::Part& part) {
-  const Json& value = *reader.Raw(kCurrent);
-  const std::size_t errors_before = reader.errors().size();
-  double rate = 0;
-  if (value.is_string()) {
-    rate = catalog::PrintedCRate(value.get_ref<const std::string&>()).value();
-  } else {
-    Reader object = reader.Object(kCurrent);
-    rate = object.Number("c_rate", kCRate);
-    object.Finish();
-  }
-  const auto capacity = part.numbers.find(kCapacity);
-  if (capacity == part.numbers.end() || !std::isfinite(capacity->second.value))
-    return reader.Fail(kCurrent, "a C-rate needs capacity_ah");
-  if (reader.errors().size() == errors_before)
-    TakeDerived(reader, *FieldOf(family, kCurrent),
-                catalog::CurrentOfCRate(rate, capacity->second.value), part);
-}
+// A field that is given as one printed number: {"c_rate": 25} or "25C", {"energy_wh": 19.2} or
+// "19.2 Wh"; what it takes beside that, and what says so where that is lacking.
+struct OnePrinted {
+  const char* field;
+  const char* member;
+  Range range;
+  std::optional<double> (*of_text)(std::string_view);
+  const char* beside;
+  const char* lacking;
+  catalog::PrintedNumber (*derive)(double printed, double beside);
+};
+constexpr OnePrinted kCapacityOfEnergy{kCapacity,
+                                       "energy_wh",
+                                       kEnergy,
+                                       catalog::PrintedEnergy,
+                                       kVoltage,
+                                       "an energy needs nominal_voltage_v",
+                                       catalog::CapacityOfEnergy};
+constexpr OnePrinted kCurrentOfRate{kCurrent,
+                                    "c_rate",
+                                    kCRate,
+                                    catalog::PrintedCRate,
+                                    kCapacity,
+                                    "a C-rate needs capacity_ah",
+                                    catalog::CurrentOfCRate};
 
-// {"energy_wh": 19.2} or "19.2 Wh".
-void DeriveCapacity(Reader& reader, const catalog::Family& family, catalog::Part& part) {
-  const Json& value = *reader.Raw(kCapacity);
+void DeriveFromOne(Reader& reader, const catalog::Family& family, const OnePrinted& one,
+                   catalog::Part& part) {
+  const Json& value = *reader.Raw(one.field);
   const std::size_t errors_before = reader.errors().size();
-  double energy_wh = 0;
+  double printed = 0;
   if (value.is_string()) {
-    energy_wh = catalog::PrintedEnergy(value.get_ref<const std::string&>()).value();
+    printed = one.of_text(value.get_ref<const std::string&>()).value();
   } else {
-    Reader object = reader.Object(kCapacity);
-    energy_wh = object.Number("energy_wh", kEnergy);
+    Reader object = reader.Object(one.field);
+    printed = object.Number(one.member, one.range);
     object.Finish();
   }
-  const auto voltage = part.numbers.find(kVoltage);
-  if (voltage == part.numbers.end() || !(voltage->second.value > 0))
-    return reader.Fail(kCapacity, "an energy needs nominal_voltage_v");
+  const auto beside = part.numbers.find(one.beside);
+  if (beside == part.numbers.end() || !(beside->second.value > 0))
+    return reader.Fail(one.field, one.lacking);
   if (reader.errors().size() == errors_before)
-    TakeDerived(reader, *FieldOf(family, kCapacity),
-                catalog::CapacityOfEnergy(energy_wh, voltage->second.value), part);
+    TakeDerived(reader, *FieldOf(family, one.field), one.derive(printed, beside->second.value),
+                part);
 }
 
 }  // namespace
@@ -177,12 +183,13 @@ bool IsPrinted(Reader& reader, const std::string& name) {
 
 void DerivePrinted(Reader& reader, const catalog::Family& family, catalog::Part& part) {
   DeriveFlows(reader, family, part);
+  const auto is_given = [&](const char* name) {
+    return FieldOf(family, name) != nullptr && reader.Has(name) && IsPrinted(reader, name);
+  };
+  if (is_given(kBody)) DeriveBody(reader, family, part);
   // A C-rate may be one of a capacity that is itself printed as an energy.
-  const std::pair<const char*, decltype(&DeriveBody)> ways[] = {
-      {kBody, DeriveBody}, {kCapacity, DeriveCapacity}, {kCurrent, DeriveCurrent}};
-  for (const auto& [name, derive] : ways)
-    if (FieldOf(family, name) != nullptr && reader.Has(name) && IsPrinted(reader, name))
-      derive(reader, family, part);
+  for (const OnePrinted& one : {kCapacityOfEnergy, kCurrentOfRate})
+    if (is_given(one.field)) DeriveFromOne(reader, family, one, part);
 }
 
 void DerivePrintedCurve(Reader& reader, catalog::Part& part) {

@@ -165,16 +165,16 @@ class ReservoirFilling {
   }
 
  private:
-  // Of rises, where only they are asked for.
+  // Of rises, where only they are asked for: one is late, or all have come.
   bool AllKnown() const {
-    bool some_left = false, all_asked = true;
+    bool all_have_come = true;
     for (std::size_t g = 0; g < rig_.size(); ++g) {
+      const double limit_s = rig_.strokes[g].rise_limit_s;
       const bool risen = std::isfinite(found_.rise_s[g]);
-      if (!risen && rig_.strokes[g].rise_limit_s < now_s_) return true;
-      some_left = some_left || !risen;
-      all_asked = all_asked && std::isfinite(rig_.strokes[g].rise_limit_s);
+      if (!risen && limit_s < now_s_) return true;
+      all_have_come = all_have_come && risen && std::isfinite(limit_s);
     }
-    return all_asked && !some_left;
+    return all_have_come;
   }
 
   ReservoirStrokes Found() {

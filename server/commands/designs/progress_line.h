@@ -5,7 +5,6 @@
 
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -22,11 +21,9 @@ class ProgressLine {
     std::fflush(stderr);
   }
   void Show(double share, const std::string& what) {
-    const int percent = static_cast<int>(std::lround(100.0 * share));
-    Show((percent < 10    ? "  "
-          : percent < 100 ? " "
-                          : "") +
-         std::to_string(percent) + " %  " + what);
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100.0 * share);
+    Show(percent + what);
   }
   ~ProgressLine() {
     if (terminal_) std::fputs("\r\x1b[K", stderr);
