@@ -262,6 +262,9 @@ class BoxSearch {
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
     const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
+    if (slow && problem_.groups.size() > 1 && ranking_.list().empty())
+      while (!configurations_.waiting().empty())
+        if (!PlantNext()) return;
     const auto list = [](const auto&... asked) { return ListCombinations(asked...).combinations; };
     SeekFirst(problem_, Due(problem_, configurations_.planted(), slow, sought_), options_, list,
               watch_, bench_.stop, ranking_);
