@@ -78,8 +78,8 @@ class BoxSearch {
     Bounds* bounds = configurations_.PlantNext();
     if (!bounds) return false;
     const Plan& plan = bounds->plan();
-    proof_.pruned.unpriced += plan.unpriced;
-    proof_.pruned.dominated += plan.dominated;
+    proof_.pruned.unpriced += plan.pruned.unpriced;
+    proof_.pruned.dominated += plan.pruned.dominated;
     if (plan.empty()) return true;
     auto node = std::make_unique<Node>();
     node->bounds = bounds;

@@ -48,6 +48,7 @@ TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
   for (int s : plan.regulator_slots) add(s);
   for (int s : {plan.bottle_slot, plan.compressor_slot, plan.battery_slot, plan.reservoir_slot})
     add(s);
+  key.share += TieShareOf(problem.objective, {0.0, 0.0, PackSurplus(problem, plan, box)});
   return key;
 }
 

@@ -125,7 +125,7 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
   PassOver(settings, {"valve_duty", "valve_duty_groups", "compressor_duty", "power"});
   settings.Finish();
   PassOver(reader, {"rank", "objective", "totals", "performance", "margins", "response", "kind",
-                    "variants", "data_quality", "robustness", "guarantee", "to_be_first"});
+                    "packs", "variants", "data_quality", "robustness", "guarantee", "to_be_first"});
   reader.Finish();
   return design;
 }
