@@ -145,8 +145,9 @@ std::string QualityText(const Json& design) {
 
 std::string Details(const Json& design) {
   return fmt::format("Design {} in full\n", Grouped(design.at("rank"))) + PartsTable(design) +
-         "\n" + SettingsText(design) + TotalsText(design) + PacksText(design) + "\n" + MarginsTable(design) + "\n" +
-         VariantsText(design) + QualityText(design) + OrderText(design);
+         "\n" + SettingsText(design) + TotalsText(design) + PacksText(design) + "\n" +
+         MarginsTable(design) + "\n" + VariantsText(design) + QualityText(design) +
+         OrderText(design);
 }
 
 // One entry of a conflict: what is required, and what was found to be enough.
