@@ -72,7 +72,8 @@ double PiecesOf(const Problem& problem, Family family, int g, int part, int quan
   if (family == Family::kTubing) return group.count * group.tube_length_m;
   if (family == Family::kFitting) return group.count * group.fittings_per_line;
   const int channels = problem.parts.valves[part].channels;
-  return (group.count + channels - 1) / channels;
+  const int valves = (group.count + channels - 1) / channels;
+  return valves;
 }
 
 bool AnySharedPacks(const Problem& problem) {

@@ -8,6 +8,7 @@
 #include "optimizer/bounds/box.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/choices/make_plan.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
