@@ -81,12 +81,10 @@ void SearchBelow(const Walk& walk, Box box, int wanted) {
   }
 }
 
-// The box of all sources with each group's lightest lines for a source of this pressure that
-// leaves so much of it at the node, of lines that need this share of it; false where there are
-// none. Groups with time to spare leave the more to the others the narrower their lines are.
-bool TakeLines(const Walk& walk, double source_pa, double node_pa, double needed, Box& box) {
+// Gives a box the line of each group; false where one has none.
+bool TakeLines(const Walk& walk, const auto& line_of, Box& box) {
   for (int g = 0; g < static_cast<int>(walk.problem.groups.size()); ++g) {
-    const auto line = walk.bounds.groups().LeastAt(g, {node_pa, node_pa}, needed, source_pa);
+    const auto line = line_of(g);
     if (!line) return false;
     std::copy(line->begin(), line->end(),
               box.nodes.begin() + static_cast<std::ptrdiff_t>(kSlotsPerGroup) * g);
@@ -100,17 +98,6 @@ bool HasPumps(const Plan& plan) { return plan.compressor_slot >= 0; }
 double TriedPressure(const Window& window, int i) {
   return window.high_pa *
          std::pow(window.low_pa / window.high_pa, static_cast<double>(i) / kPressures);
-}
-
-// As TakeLines(), with the lines that need the least at the node.
-bool TakeStrongest(const Walk& walk, double source_pa, Box& box) {
-  for (int g = 0; g < static_cast<int>(walk.problem.groups.size()); ++g) {
-    const auto line = walk.bounds.groups().StrongestAt(g, source_pa);
-    if (!line) return false;
-    std::copy(line->begin(), line->end(),
-              box.nodes.begin() + static_cast<std::ptrdiff_t>(kSlotsPerGroup) * g);
-  }
-  return true;
 }
 
 // Whether two boxes with the same lines have the same pumps, or regulators where there are none:
@@ -136,10 +123,9 @@ bool SearchStrongest(const Walk& walk, Box box) {
     node.box = std::move(open.back());
     open.pop_back();
     if (walk.bounds.IsSingle(node.box)) {
-      const Box leaf = node.box;
-      if (Size(walk, node)) return true;
+      if (Size(walk, node)) return true;  // which else leaves its box
       if (++in_vain == kSizedInVain) return false;
-      while (!open.empty() && HaveSameSource(walk.bounds.plan(), leaf, open.back()))
+      while (!open.empty() && HaveSameSource(walk.bounds.plan(), node.box, open.back()))
         open.pop_back();
       continue;
     }
@@ -161,32 +147,40 @@ class LinesToTry {
     some_ = walk.bounds.Assess(root_, -1) == Constraint::kNone;
   }
 
-  // Hands each on to `look`, which is told that they are enough by its answer.
+  // Hands each on to `look`, which answers whether they are enough. The lines that need the least
+  // at the node, for sources of falling pressure:
   void Strongest(const auto& look) {
     for (int i = 0; some_ && i < kPressures && !walk_.stop(); ++i) {
-      Box box = walk_.bounds.Root();
-      if (TakeStrongest(walk_, TriedPressure(root_.window, i), box) && IsNew(box) &&
-          look(std::move(box)))
-        return;
+      const double source_pa = TriedPressure(root_.window, i);
+      const auto line_of = [&](int g) { return walk_.bounds.groups().StrongestAt(g, source_pa); };
+      if (IsEnough(line_of, look)) return;
     }
   }
+  // The lightest for a source that leaves so much of its pressure at the node, of lines that need
+  // so much of that. Groups with time to spare leave the more to the others the narrower theirs
+  // are.
   void Lightest(const auto& look) {
     for (int i = 0; some_ && i < kPressures; ++i) {
       const double source_pa = TriedPressure(root_.window, i);
       for (const double share : kNodeShares) {
         for (const double needed : kNeededShares) {
           if (walk_.stop()) return;
-          Box box = walk_.bounds.Root();
-          if (TakeLines(walk_, source_pa, share * source_pa, needed, box) && IsNew(box) &&
-              look(std::move(box)))
-            return;
+          const double node_pa = share * source_pa;
+          const auto line_of = [&](int g) {
+            return walk_.bounds.groups().LeastAt(g, {node_pa, node_pa}, needed, source_pa);
+          };
+          if (IsEnough(line_of, look)) return;
         }
       }
     }
   }
 
  private:
-  bool IsNew(const Box& box) { return tried_.insert({box.nodes.begin(), box.nodes.end()}).second; }
+  bool IsEnough(const auto& line_of, const auto& look) {
+    Box box = walk_.bounds.Root();
+    return TakeLines(walk_, line_of, box) &&
+           tried_.insert({box.nodes.begin(), box.nodes.end()}).second && look(std::move(box));
+  }
 
   const Walk& walk_;
   Box root_;
@@ -283,6 +277,7 @@ void SearchLikely(const Problem& problem, Bounds& bounds, std::vector<Box> likel
 void SeekFirst(const Problem& problem, const std::vector<Bounds*>& due,
                const SearchOptions& options, const ListDesigns& list, Watch& watch,
                const std::function<bool()>& stop, Ranking& ranking) {
+  if (due.empty()) return;  // as at nearly every box of a search
   const double each = 1.0 / static_cast<double>(due.size());
   const bool several = problem.groups.size() > 1;
   SearchOptions own = options;
