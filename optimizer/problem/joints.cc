@@ -19,13 +19,16 @@ int PiecesFor(int joined, const model::Manifold& manifold) {
 }
 
 // What orders the rows that may be taken.
-auto KeyOf(const model::Manifold& manifold, int quantity) {
-  const model::PartBasics& one = manifold.basics;
-  return std::tuple(quantity * one.mass_kg, PackCost(quantity, one), one.id);
+auto KeyOf(const Problem& problem, const model::PartBasics& one, int quantity) {
+  const Objective& by = problem.joints_by;
+  const double mass_kg = quantity * one.mass_kg, cost_eur = PackCost(quantity, one);
+  const double volume_l = 1000.0 * quantity * one.body_volume_m3;
+  return std::tuple(by.mass_kg * mass_kg + by.volume_l * volume_l + by.cost_eur * cost_eur, mass_kg,
+                    cost_eur, one.id);
 }
 
-std::optional<Joint> Lightest(const Problem& problem, int joined, double pressure_pa,
-                              double conductance_m3_per_s_pa) {
+std::optional<Joint> Least(const Problem& problem, int joined, double pressure_pa,
+                           double conductance_m3_per_s_pa) {
   if (joined < 2) return std::nullopt;
   const std::vector<model::Manifold>& rows = problem.parts.manifolds;
   const auto stands = [&](const model::Manifold& row) {
@@ -47,7 +50,8 @@ std::optional<Joint> Lightest(const Problem& problem, int joined, double pressur
         rows[i].sonic_conductance_m3_per_s_pa < std::min(conductance_m3_per_s_pa, most))
       continue;
     const Joint joint{Family::kManifold, i, PiecesFor(joined, rows[i])};
-    if (!best || KeyOf(rows[i], joint.quantity) < KeyOf(rows[best->part], best->quantity))
+    if (!best || KeyOf(problem, rows[i].basics, joint.quantity) <
+                     KeyOf(problem, rows[best->part].basics, best->quantity))
       best = joint;
   }
   return best;
@@ -82,8 +86,7 @@ bool MayBeJoined(Family family) {
 // ── check valves ──
 
 auto RankOf(const Problem& problem, const model::CheckValve& row) {
-  return std::tuple(!row.basics.cost_eur, row.basics.mass_kg,
-                    PackCost(FeedsOf(problem), row.basics), row.basics.id);
+  return std::tuple(!row.basics.cost_eur, KeyOf(problem, row.basics, FeedsOf(problem)));
 }
 
 model::MonotoneCurve Lowered(const model::MonotoneCurve& curve, double by_pa) {
@@ -143,28 +146,28 @@ double JointConductance(const Problem& problem) {
 }
 
 std::optional<Joint> JointOfLines(const Problem& problem) {
-  return Lightest(problem, LineCount(problem), PressureOf(problem, Family::kReservoir, 0),
-                  JointConductance(problem));
+  return Least(problem, LineCount(problem), PressureOf(problem, Family::kReservoir, 0),
+               JointConductance(problem));
 }
 
 std::optional<Joint> JointOfLines(const Problem& problem, int g) {
   const ActuatorGroup& group = problem.groups[g];
-  return Lightest(problem, group.count, group.chamber.operating_pressure_pa,
-                  group.joint_conductance_m3_per_s_pa);
+  return Least(problem, group.count, group.chamber.operating_pressure_pa,
+               group.joint_conductance_m3_per_s_pa);
 }
 
 std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family, int part) {
   if (family == Family::kCompressor) return std::nullopt;  // it fills the tank
   const bool bottle = family == Family::kCylinder || family == Family::kCo2;
-  return Lightest(problem, static_cast<int>(problem.groups.size()),
-                  PressureOf(problem, family, part), bottle ? 0.0 : JointConductance(problem));
+  return Least(problem, static_cast<int>(problem.groups.size()), PressureOf(problem, family, part),
+               bottle ? 0.0 : JointConductance(problem));
 }
 
 std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity) {
   if (quantity < 2 || !MayBeJoined(family)) return std::nullopt;
   const bool drawn_from = family == Family::kReservoir || family == Family::kTank;
-  return Lightest(problem, quantity, PressureOf(problem, family, part),
-                  drawn_from ? JointConductance(problem) : 0.0);
+  return Least(problem, quantity, PressureOf(problem, family, part),
+               drawn_from ? JointConductance(problem) : 0.0);
 }
 
 int CheckValveOf(const Problem& problem, const model::Parts& parts) {
@@ -209,8 +212,8 @@ std::vector<Joint> JointsOfFeeds(const Problem& problem, Family family, int part
     return joints;
   }
   for (const ActuatorGroup& group : problem.groups)
-    add(Lightest(problem, quantity + 1, group.chamber.operating_pressure_pa,
-                 group.joint_conductance_m3_per_s_pa / group.count),
+    add(Least(problem, quantity + 1, group.chamber.operating_pressure_pa,
+              group.joint_conductance_m3_per_s_pa / group.count),
         group.count);
   if (PumpsIn(problem.parts, family)[part].check_valve_cracking_pa)
     if (const int valve = CheckValveOf(problem, problem.parts); valve >= 0)

@@ -4,9 +4,11 @@
 //
 // n lines, or pieces, need pieces of one row whose stations suffice in a tree: ⌈(n − 1)/(k − 1)⌉ of
 // k stations. Of the rows that stand the pressure and pass enough the one whose pieces together are
-// lightest, whatever the objective; ties go by the cost of their packs and id. Rows with a price go
-// before those without, which are none where cost counts. Where no row passes enough it is of those
-// that pass most. Where none stands the pressure there is no joint, and nothing counts.
+// least by the request's objective (Problem::joints_by, in packs of their own, energy aside); ties
+// go by mass, cost and id. Rows with a price go before those without, which are none where cost
+// counts. Along a front the rows stay: they are least by what orders the front's designs. Where no
+// row passes enough it is of those that pass most. Where none stands the pressure there is no
+// joint, and nothing counts.
 //
 // Enough, for lines, is kJointFactor times what all actuators ask who fill at once within their
 // rise times (JointConductance below). It would slow lines which are just fast enough by 2 or 3 %
@@ -15,10 +17,10 @@
 // Pumps of each actuator (pump_feed.h) keep it full while they are off. Where their row says that
 // they let air back each feed has a check valve between them and its line, the same for all feeds:
 // of the rows that stand the highest operating pressure and pass enough for the actuator that asks
-// most the lightest, as above. Where no row does, such pumps are no choice. Air passes it while the
-// pressure in front is its cracking pressure above that behind, so that the pumps work against so
-// much more: their curves are shifted by it, to the pressures behind the check valve, which alone
-// all else knows.
+// most the least one, as above. Where no row does, such pumps are no choice. Air passes it while
+// the pressure in front is its cracking pressure above that behind, so that the pumps work against
+// so much more: their curves are shifted by it, to the pressures behind the check valve, which
+// alone all else knows.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_JOINTS_H_
 #define PLENUM_OPTIMIZER_PROBLEM_JOINTS_H_
 

@@ -144,6 +144,7 @@ struct Problem {
   bool unpriced_allowed = false;  // where cost matters: a part without a price counts as free
   model::Ambient ambient;
   Objective objective;
+  Objective joints_by{.mass_kg = 1.0};  // what joints are least of (joints.h)
   Limits limits;
   std::map<Family, std::set<std::string>> require;  // only these ids; "custom" reservoir
   std::set<std::string> exclude;                    // may hold "custom"

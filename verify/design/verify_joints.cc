@@ -29,14 +29,19 @@ int Prefers(const model::Manifold& a, const model::Manifold& b, double asked) {
   return passes_a > passes_b ? 1 : passes_a < passes_b ? -1 : 0;
 }
 
-// Whether a is taken rather than b.
-bool Before(int joined, const model::Manifold& a, const model::Manifold& b) {
-  const double pieces_a = Pieces(joined, a), pieces_b = Pieces(joined, b);
-  const double mass_a = pieces_a * a.basics.mass_kg, mass_b = pieces_b * b.basics.mass_kg;
+// Whether so many pieces of a are taken rather than so many of b.
+bool Before(const Problem& problem, double pieces_a, const model::PartBasics& a, double pieces_b,
+            const model::PartBasics& b) {
+  const double mass_a = pieces_a * a.mass_kg, mass_b = pieces_b * b.mass_kg;
+  const double cost_a = CostInPacks(pieces_a, a), cost_b = CostInPacks(pieces_b, b);
+  const Objective& by = problem.joints_by;
+  const double litres_a = 1000.0 * pieces_a * a.body_volume_m3;
+  const double litres_b = 1000.0 * pieces_b * b.body_volume_m3;
+  const double value_a = by.mass_kg * mass_a + by.volume_l * litres_a + by.cost_eur * cost_a;
+  const double value_b = by.mass_kg * mass_b + by.volume_l * litres_b + by.cost_eur * cost_b;
+  if (value_a != value_b) return value_a < value_b;
   if (mass_a != mass_b) return mass_a < mass_b;
-  const double cost_a = CostInPacks(pieces_a, a.basics);
-  const double cost_b = CostInPacks(pieces_b, b.basics);
-  return cost_a != cost_b ? cost_a < cost_b : a.basics.id < b.basics.id;
+  return cost_a != cost_b ? cost_a < cost_b : a.id < b.id;
 }
 
 JointRows Join(const Problem& problem, int joined, double pressure_pa, double asked) {
@@ -45,7 +50,9 @@ JointRows Join(const Problem& problem, int joined, double pressure_pa, double as
   for (int i = 0; joined > 1 && i < static_cast<int>(rows.size()); ++i) {
     if (!Serves(problem, rows[i], pressure_pa)) continue;
     const int prefers = best < 0 ? 1 : Prefers(rows[i], rows[best], asked);
-    if (prefers > 0 || (prefers == 0 && Before(joined, rows[i], rows[best]))) best = i;
+    if (prefers > 0 || (prefers == 0 && Before(problem, Pieces(joined, rows[i]), rows[i].basics,
+                                               Pieces(joined, rows[best]), rows[best].basics)))
+      best = i;
   }
   if (best < 0) return {};
   return {{{Family::kManifold, best}, static_cast<int>(Pieces(joined, rows[best]))}};
@@ -138,9 +145,7 @@ const model::CheckValve* CheckValveFor(const Problem& problem) {
   const double feeds = Feeds(problem);
   const auto before = [&](const model::PartBasics& a, const model::PartBasics& b) {
     if (a.cost_eur.has_value() != b.cost_eur.has_value()) return a.cost_eur.has_value();
-    if (a.mass_kg != b.mass_kg) return a.mass_kg < b.mass_kg;
-    const double cost_a = CostInPacks(feeds, a), cost_b = CostInPacks(feeds, b);
-    return cost_a != cost_b ? cost_a < cost_b : a.id < b.id;
+    return Before(problem, feeds, a, feeds, b);
   };
   for (const model::CheckValve& row : problem.parts.check_valves)
     if (serves(row) && (!best || before(row.basics, best->basics))) best = &row;

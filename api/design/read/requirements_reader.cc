@@ -288,6 +288,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   CheckGaits(reader, problem);
   CheckPressures(problem, errors);
   ReadObjective(reader, problem.objective, parsed.pareto);
+  problem.joints_by = problem.objective;
   const std::optional<double> probability_min = ReadRanking(reader, parsed);
   parsed.robust = ReadRobust(reader, probability_min);
   parsed.guarantee = ReadGuarantee(reader, std::move(uncertainties));

@@ -249,8 +249,13 @@ std::string QualityLine(const Json& answer) {
   if (designs.empty()) return "";
   const Json& best = designs.front();
   const Json& quality = best.at("data_quality");
-  std::string text = fmt::format("Best: {} kg, estimates carry {} of it", Mass(best),
-                                 Percent(quality.at("mass_share_estimated")));
+  const Json& cost = best.at("totals").at("cost_eur");
+  std::string text =
+      CountsCost(answer) && cost.is_number()
+          ? fmt::format("Best: {} €, {} kg, estimates carry {} of the mass", Short(cost),
+                        Mass(best), Percent(quality.at("mass_share_estimated")))
+          : fmt::format("Best: {} kg, estimates carry {} of it", Mass(best),
+                        Percent(quality.at("mass_share_estimated")));
   if (quality.at("flow_estimated").get<bool>()) text += " and some flow data";
   const std::size_t classes = quality.value("not_orderable", Json::array()).size();
   if (classes > 0)

@@ -79,6 +79,29 @@ TEST(Joints, AreTheLightestThatPassEnoughAndStandThePressure) {
   EXPECT_FALSE(JointOfLines(problem));
 }
 
+TEST(Joints, AreTheCheapestWhereCostIsMinimised) {
+  Problem problem = SixOfFifty();
+  problem.parts.manifolds = {Row("light", 6, 0.02, 9.0), Row("tee", 2, 0.01, 9.0),
+                             Row("cheap", 6, 0.3, 9.0)};
+  const auto priced = [&](double light_eur, double tee_eur, double cheap_eur) {
+    const std::array prices{light_eur, tee_eur, cheap_eur};
+    for (int i = 0; i < 3; ++i) problem.parts.manifolds[i].basics.cost_eur = prices[i];
+    return JointOfLines(problem)->part;
+  };
+  EXPECT_EQ(priced(9.0, 1.0, 3.0), 0);
+  problem.joints_by = {.cost_eur = 1.0};
+  EXPECT_EQ(priced(9.0, 1.0, 3.0), 2);
+  EXPECT_EQ(priced(9.0, 0.5, 3.0), 1);  // five of them
+  EXPECT_EQ(priced(3.0, 1.0, 3.0), 0);  // of the same cost the lightest
+  problem.parts.manifolds[1].basics.pack = 10.0;
+  EXPECT_EQ(priced(9.0, 0.5, 3.0), 2);  // ten are bought
+  problem.joints_by = {.energy_wh = 1.0};
+  EXPECT_EQ(priced(9.0, 0.5, 3.0), 0);
+  problem.joints_by = {.volume_l = 1.0};
+  problem.parts.manifolds[2].basics.body_volume_m3 = 1e-6;
+  EXPECT_EQ(priced(9.0, 0.5, 3.0), 2);
+}
+
 TEST(Joints, OfAnEqualGroupSplitInTwoAreTheSame) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 200; ++i) {
