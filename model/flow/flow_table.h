@@ -21,6 +21,11 @@ class FlowTable {
 
   // As FlowAtRatio(series, ratio), m³/(s·Pa).
   double operator()(double ratio) const;
+  // The same and its slope by the ratio, below equal pressures.
+  struct FlowAndSlope {
+    double flow, slope;
+  };
+  FlowAndSlope WithSlope(double ratio) const;
   // m³/s ANR from a pressure down to another.
   double Flow(double upstream_pa, double downstream_pa) const {
     return (mirror_pa_ > 0.0 ? mirror_pa_ - downstream_pa : upstream_pa) *
@@ -39,20 +44,39 @@ class FlowTable {
     double value, slope;
   };
   std::array<Knot, kCells + 1> knots_{};
+  struct Cubic {  // of a cell, and where a ratio lies in it
+    double t, value, slope, square, cube;
+  };
+  Cubic CubicAt(double ratio) const;
 };
 
 inline double FlowTable::operator()(double ratio) const {
   if (ratio <= choked_ratio_) return choked_flow_;
   if (ratio >= 1.0) return 0.0;
+  const Cubic cell = CubicAt(ratio);
+  const double u = cell.value + cell.t * (cell.slope + cell.t * (cell.square + cell.t * cell.cube));
+  return choked_flow_ * std::sqrt(u * (2.0 - u));
+}
+
+inline FlowTable::FlowAndSlope FlowTable::WithSlope(double ratio) const {
+  if (ratio <= choked_ratio_) return {choked_flow_, 0.0};
+  const Cubic cell = CubicAt(ratio);
+  const double u = cell.value + cell.t * (cell.slope + cell.t * (cell.square + cell.t * cell.cube));
+  const double u_per_cell = cell.slope + cell.t * (2.0 * cell.square + cell.t * 3.0 * cell.cube);
+  const double sine = std::sqrt(u * (2.0 - u));
+  return {choked_flow_ * sine, -choked_flow_ * (1.0 - u) / sine * u_per_cell * cells_per_ratio_};
+}
+
+inline FlowTable::Cubic FlowTable::CubicAt(double ratio) const {
   const double position = (1.0 - ratio) * cells_per_ratio_;
   const int cell = std::min(static_cast<int>(position), kCells - 1);
-  const double t = position - cell;
   const Knot &from = knots_[cell], &to = knots_[cell + 1];
   const double rise = to.value - from.value;
-  const double square = 3.0 * rise - 2.0 * from.slope - to.slope;
-  const double cube = from.slope + to.slope - 2.0 * rise;
-  const double u = from.value + t * (from.slope + t * (square + t * cube));
-  return choked_flow_ * std::sqrt(u * (2.0 - u));
+  return {.t = position - cell,
+          .value = from.value,
+          .slope = from.slope,
+          .square = 3.0 * rise - 2.0 * from.slope - to.slope,
+          .cube = from.slope + to.slope - 2.0 * rise};
 }
 
 }  // namespace plenum::model

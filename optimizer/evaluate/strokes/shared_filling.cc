@@ -10,7 +10,9 @@
 #include "model/flow/flow_table.h"
 #include "model/physics/air.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/strokes/falling_root.h"
 #include "optimizer/evaluate/strokes/filling_commands.h"
+#include "optimizer/evaluate/strokes/flow_down.h"
 #include "optimizer/evaluate/strokes/stiff_stepper.h"
 
 namespace plenum::optimizer {
@@ -205,50 +207,33 @@ class SharedFilling {
                        [](const Group& group) { return group.valve == Valve::kAtNode; });
   }
 
-  // Straight to zero close to equal pressures, as the simulator has it.
-  static double Flow(const model::FlowTable& flow, double from_pa, double to_pa) {
-    constexpr double kLinear = 1e-9;
-    const double drop = 1.0 - to_pa / from_pa;
-    return drop >= kLinear ? from_pa * flow(1.0 - drop)
-                           : from_pa * flow(1.0 - kLinear) * std::max(0.0, drop / kLinear);
-  }
   double Flow(std::size_t g, double node_pa, double pressure_pa) const {
-    return Flow(groups_[g].flow, node_pa, pressure_pa);
+    return FlowDown(groups_[g].flow, node_pa, pressure_pa);
   }
-  // What the regulator passes beyond what the open lines take.
-  double Left(double node_pa, std::span<const double> y) const {
-    double left = std::min(Flow(regulator_, source_pa_, node_pa), flow_max_);
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (groups_[g].valve == Valve::kOpen) left -= groups_[g].count * Flow(g, node_pa, y[g]);
+  // What the regulator passes beyond what the open lines take, and its slope by the node's
+  // pressure.
+  ValueAndSlope LeftAndSlope(double node_pa, std::span<const double> y) const {
+    const FlowAndSlopes regulated = FlowAndSlopesDown(regulator_, source_pa_, node_pa);
+    ValueAndSlope left = regulated.flow < flow_max_ ? ValueAndSlope{regulated.flow, regulated.by_to}
+                                                    : ValueAndSlope{flow_max_, 0.0};
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (groups_[g].valve != Valve::kOpen || y[g] >= node_pa) continue;
+      const FlowAndSlopes line = FlowAndSlopesDown(groups_[g].flow, node_pa, y[g]);
+      left.value -= groups_[g].count * line.flow;
+      left.slope -= groups_[g].count * line.by_from;
+    }
     return left;
   }
 
-  // Where nothing is left, by the method of Illinois.
+  // Where nothing is left; near the node that was found last.
   double NodePressure(std::span<const double> y) const {
-    constexpr double kWidth = 1e-13;
-    double low = source_pa_, high = source_pa_;
+    double lowest_pa = source_pa_;
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (groups_[g].valve == Valve::kOpen) low = std::min(low, y[g]);
-    if (low >= high) return high;
-    double f_low = Left(low, y), f_high = Left(high, y);
-    if (f_low <= 0.0) return low;
-    if (f_high >= 0.0) return high;
-    for (int side = 0; high - low > kWidth * high;) {
-      const double middle = (low * f_high - high * f_low) / (f_high - f_low);
-      if (!(middle > low && middle < high)) break;
-      const double f = Left(middle, y);
-      if (f == 0.0) return middle;
-      if (f > 0.0) {
-        low = middle, f_low = f;
-        if (side == 1) f_high *= 0.5;
-        side = 1;
-      } else {
-        high = middle, f_high = f;
-        if (side == -1) f_low *= 0.5;
-        side = -1;
-      }
-    }
-    return 0.5 * (low + high);
+      if (groups_[g].valve == Valve::kOpen) lowest_pa = std::min(lowest_pa, y[g]);
+    return lowest_pa >= source_pa_
+               ? source_pa_
+               : FallingRoot([&](double node_pa) { return LeftAndSlope(node_pa, y); }, lowest_pa,
+                             source_pa_, node_pa_);
   }
 
   double NodeAt(std::span<const double> y) const {
@@ -263,7 +248,7 @@ class SharedFilling {
       for (const Group& group : groups_)
         if (group.valve == Valve::kAtNode)
           room += group.count * model::ContentSlope(*group.chamber, node_pa_);
-      node_slope = content_per_volume_ * std::max(0.0, Left(node_pa_, y)) / room;
+      node_slope = content_per_volume_ * std::max(0.0, LeftAndSlope(node_pa_, y).value) / room;
     }
     slopes.back() = node_slope;
     for (std::size_t g = 0; g < groups_.size(); ++g) {

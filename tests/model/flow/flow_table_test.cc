@@ -29,6 +29,25 @@ class RandomChains {
   std::mt19937 generator_;
 };
 
+TEST(FlowTable, ItsSlopeIsThatOfItsDifferences) {
+  RandomChains chains(12);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Series series = chains.Draw();
+    const FlowTable table(series);
+    for (int i = 0; i < 20; ++i) {
+      const double ratio = chains.Uniform(0.5 * series.choked_ratio, 0.999);
+      const double h = 1e-7;
+      const FlowTable::FlowAndSlope at = table.WithSlope(ratio);
+      EXPECT_EQ(at.flow, table(ratio));
+      const double left = (table(ratio) - table(ratio - h)) / h;
+      const double right = (table(ratio + h) - table(ratio)) / h;
+      const double room = 1e-4 * std::abs(left) + 1e-6 * series.choked_flow_m3_per_s_pa;
+      EXPECT_LE(at.slope, std::max(left, right) + room);
+      EXPECT_GE(at.slope, std::min(left, right) - room);
+    }
+  }
+}
+
 TEST(FlowTable, FollowsTheExactCurveOnRandomChains) {
   RandomChains chains(11);
   std::vector<double> errors;
