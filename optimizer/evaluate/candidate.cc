@@ -164,8 +164,9 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
                           const OperatingPointOf<T>& point) {
   AmountsOf<T> total;
   for (const Line* line : candidate.lines) total += line->amounts;
-  for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
-                               &candidate.battery, &candidate.reservoir})
+  for (const Option* option :
+       {&candidate.regulator, &candidate.bottle, &candidate.compressor, &candidate.battery,
+        &candidate.reservoir, &candidate.rail_pump, &candidate.rail_reservoir})
     total += option->amounts;
   for (const Option& own : candidate.own_regulators) total += own.amounts;
   if (point.tank_fill_pa > 0.0)

@@ -37,7 +37,9 @@ struct Candidate {
   Configuration configuration = Configuration::kMains;
   std::vector<const Line*> lines;  // one per group
   Option regulator, bottle, compressor, battery, reservoir;
-  std::vector<Option> own_regulators = {};  // one a group, in place of `regulator`; or empty
+  std::vector<Option> own_regulators = {};     // one a group, in place of `regulator`; or empty
+  Option rail_pump = {}, rail_reservoir = {};  // of the vacuum beside the source (pumped_rail.h)
+  double rail_pa = 0.0;                        // the weakest that does; 0: not found yet
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;
@@ -62,6 +64,7 @@ struct OperatingPointOf {
   double tank_fill_pa = 0.0;          // 0: the least that does (see below)
   std::vector<double> group_pa = {};  // behind each group's own regulator; or empty
   double pump_stop_pa = 0.0;          // of pumps that fill a tank; 0: the lowest that does
+  double rail_pa = 0.0;               // 0: the weakest that does (pumped_rail.h)
 };
 using OperatingPoint = OperatingPointOf<double>;
 

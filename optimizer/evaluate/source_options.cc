@@ -6,10 +6,13 @@
 namespace plenum::optimizer {
 namespace {
 
-Option Candidate::*PlaceOf(Family family) {
+Option Candidate::*PlaceOf(Configuration configuration, Family family) {
   switch (family) {
-    case Family::kCompressor:
     case Family::kVacuumPump:
+      return IsVacuum(configuration) ? &Candidate::compressor : &Candidate::rail_pump;
+    case Family::kVacuumReservoir:
+      return &Candidate::rail_reservoir;
+    case Family::kCompressor:
     case Family::kEjector:
       return &Candidate::compressor;
     case Family::kBattery:
@@ -25,9 +28,11 @@ Option Candidate::*PlaceOf(Family family) {
 
 }  // namespace
 
-Option& OptionOf(Candidate& candidate, Family family) { return candidate.*PlaceOf(family); }
+Option& OptionOf(Candidate& candidate, Family family) {
+  return candidate.*PlaceOf(candidate.configuration, family);
+}
 const Option& OptionOf(const Candidate& candidate, Family family) {
-  return candidate.*PlaceOf(family);
+  return candidate.*PlaceOf(candidate.configuration, family);
 }
 
 double ChargeKg(const Problem& problem, Family family, int part) {

@@ -20,7 +20,7 @@ std::string IdOf(const model::Parts& parts, Family family, int index) {
 // The configuration and the series of the sources of all combinations in the box.
 std::optional<Kind::Sources> SourceAt(const Plan& plan, const Box& box) {
   Kind::Sources sources{plan.configuration, {}};
-  for (const int slot : {plan.bottle_slot, plan.compressor_slot}) {
+  for (const int slot : {plan.bottle_slot, plan.compressor_slot, plan.rail.pump_slot}) {
     if (slot < 0) continue;
     const int series = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
     if (series < 0) return std::nullopt;
@@ -46,7 +46,8 @@ TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
   for (int g = 0; g < static_cast<int>(plan.groups.size()); ++g)
     for (int s : {2, 1, 0}) add(kSlotsPerGroup * g + s);  // valve, fitting, tube
   for (int s : plan.regulator_slots) add(s);
-  for (int s : {plan.bottle_slot, plan.compressor_slot, plan.battery_slot, plan.reservoir_slot})
+  for (int s : {plan.bottle_slot, plan.compressor_slot, plan.rail.pump_slot, plan.battery_slot,
+                plan.reservoir_slot, plan.rail.reservoir_slot})
     add(s);
   return key;
 }

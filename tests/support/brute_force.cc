@@ -94,6 +94,25 @@ bool VoltagesMatch(const Problem& problem, const Candidate& candidate) {
 
 using Visit = std::function<void(const Candidate&)>;
 
+// With every vacuum beside the source, where there is one, that the battery drives.
+void ForEachRail(const Problem& problem, Candidate& candidate, const Visit& visit) {
+  if (!PumpsRail(problem)) return visit(candidate);
+  const auto drives = [&](const Option& pump) {
+    if (candidate.battery.index < 0) return true;
+    const double pack_v = problem.parts.batteries[candidate.battery.index].nominal_voltage_v;
+    const double pump_v = problem.parts.vacuum_pumps[pump.index].curve.voltage_v;
+    return std::abs(pack_v - pump_v) <= 0.15 * pump_v * (1.0 + 1e-9);
+  };
+  for (const Option& pump : Options(problem, Family::kVacuumPump, problem.parts.vacuum_pumps,
+                                    problem.limits.compressors))
+    for (const Option& reservoir : Options(problem, Family::kVacuumReservoir,
+                                           problem.parts.reservoirs, problem.limits.reservoirs)) {
+      candidate.rail_pump = pump;
+      candidate.rail_reservoir = reservoir;
+      if (drives(pump)) visit(candidate);
+    }
+}
+
 void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& visit) {
   const model::Parts& parts = problem.parts;
   const std::vector<Option> batteries =
@@ -142,7 +161,7 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
           candidate.compressor = pump;
           candidate.battery = battery;
           if (RegulatorStands(problem, candidate) && (!fills || VoltagesMatch(problem, candidate)))
-            visit(candidate);
+            ForEachRail(problem, candidate, visit);
         }
 }
 
@@ -182,6 +201,9 @@ long long Combinations(const Problem& problem, Configuration configuration) {
     return product * (count(parts.regulators, 1) + 1) * count(parts.tanks, limits.reservoirs) *
            count(parts.batteries, limits.batteries);
   product *= count(parts.regulators, 1);
+  if (PumpsRail(problem))
+    product *=
+        count(parts.vacuum_pumps, limits.compressors) * count(parts.reservoirs, limits.reservoirs);
   if (configuration == Configuration::kMains) return product;
   if (configuration == Configuration::kTankAndPump)
     return product * count(parts.tanks, limits.reservoirs) *
@@ -238,7 +260,9 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   optimizer::Option pumps = candidate.compressor;
   pumps.quantity *= FeedsByHand(problem);
   add(PumpsOf(problem, candidate.configuration), pumps);
+  add(parts.vacuum_pumps, candidate.rail_pump);
   add(parts.batteries, candidate.battery);
+  add(parts.reservoirs, candidate.rail_reservoir);
   add(parts.reservoirs, candidate.reservoir);
   if (candidate.reservoir.index == optimizer::kCustom) key.emplace_back("custom", 1);
   return key;

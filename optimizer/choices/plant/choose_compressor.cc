@@ -61,8 +61,8 @@ void SetNumbers(const PartNumbers& numbers, CompressorCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
 }
 
-int Planter::PlantCompressors() {
-  const std::vector<model::Compressor>& parts = PumpsOf(problem_, plan_->configuration);
+int Planter::PlantPumps(Family family, double highest_pa, BoxTree<CompressorCorner>& tree) {
+  const std::vector<model::Compressor>& parts = PumpsIn(problem_.parts, family);
   const int most = problem_.limits.compressors;
   for (const model::Compressor& part : parts) voltages_.Bit(part.curve.voltage_v);
   CoarsePump alone;                                // one of the part that is planted
@@ -77,16 +77,32 @@ int Planter::PlantCompressors() {
     corner.pressure_max_pa = model::HighestPressure(curve);
     corner.duty_max = parts[i].duty_max;
     if (quantity == 1) {
-      alone = MakeCoarsePump(problem_, plan_->highest_pump_pa, curve);
+      alone = MakeCoarsePump(problem_, highest_pa, curve);
       curve_number =
           number_of.try_emplace(Bytes(curve), static_cast<int>(number_of.size())).first->second;
     }
     corner.pump = Several(alone, quantity);
     entry.contender.mates = curve_number * most + quantity - 1;
   };
-  const Family family = PumpFamily(plan_->configuration);
   return PlantSlot(family, -1, ChoicesOf(family), MakeSourceEntries<CompressorCorner>(family, rule),
-                   plan_->compressors);
+                   tree);
+}
+
+int Planter::PlantCompressors() {
+  return PlantPumps(PumpFamily(plan_->configuration), plan_->highest_pump_pa, plan_->compressors);
+}
+
+void Planter::PlantRail() {
+  double highest_pa = 1.01 * problem_.ambient.pressure_pa;
+  for (const model::Compressor& pump : problem_.parts.vacuum_pumps)
+    highest_pa = std::max(highest_pa, model::HighestPressure(pump.curve));
+  plan_->rail.pump_slot = PlantPumps(Family::kVacuumPump, highest_pa, plan_->rail.pumps);
+  constexpr Family kReservoirs = Family::kVacuumReservoir;
+  plan_->rail.reservoir_slot =
+      PlantSlot(kReservoirs, -1, ChoicesOf(kReservoirs),
+                MakeSourceEntries<ReservoirCorner>(kReservoirs,
+                                                   [](int, int, const Entry<ReservoirCorner>&) {}),
+                plan_->rail.reservoirs);
 }
 
 }  // namespace plenum::optimizer

@@ -102,7 +102,7 @@ class Planter {
   std::unique_ptr<Plan> Plant() {
     const std::size_t groups = problem_.groups.size();
     plan_->groups.resize(groups);
-    plan_->slots.reserve((kSlotsPerGroup + 1) * groups + 3);
+    plan_->slots.reserve((kSlotsPerGroup + 1) * groups + 5);
     total_ = priced_ = kept_ = 1;
     for (int g = 0; g < static_cast<int>(groups) && !stopped(); ++g) PlantGroup(g);
     if (stopped()) return nullptr;
@@ -115,6 +115,7 @@ class Planter {
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
       if (HasTank(plan_->configuration)) plan_->bottle_slot = PlantTanks();
       if (HasPump(plan_->configuration)) plan_->compressor_slot = PlantCompressors();
+      if (PumpsRail(problem_)) PlantRail();
     }
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
     if (stopped()) return nullptr;
@@ -305,6 +306,8 @@ class Planter {
   int PlantCompressors();
   int PlantReservoirs();
   int PlantBatteries();
+  void PlantRail();  // vacuum pumps beside the source, and their reservoirs
+  int PlantPumps(Family family, double highest_pa, BoxTree<CompressorCorner>& tree);
 
   const Problem& problem_;
   bool name_left_out_;
@@ -312,7 +315,7 @@ class Planter {
   std::unique_ptr<Plan> plan_;
   double useful_max_pa_ = kUnlimited;
   bool may_stay_open_ = false, may_close_late_ = false;
-  KindsOf<double> voltages_;  // of compressors
+  KindsOf<double> voltages_;  // of pumps
   BigCount total_, priced_, kept_;
 };
 

@@ -39,7 +39,7 @@ export async function exchanged(
     }),
   );
   const { source_pressure_kpa_gauge, reservoir_volume_ml, tank_fill_kpa_gauge } = design.settings;
-  const { group_pressure_kpa_gauge } = design.settings;
+  const { group_pressure_kpa_gauge, vacuum_stop_kpa_gauge, vacuum_kpa_gauge } = design.settings;
   const made = parts.some(({ family, id }) => family === 'reservoir' && id === 'custom');
   return {
     configuration: design.configuration,
@@ -47,6 +47,7 @@ export async function exchanged(
     settings: {
       source_pressure_kpa_gauge,
       ...(group_pressure_kpa_gauge && { group_pressure_kpa_gauge }),
+      ...(vacuum_stop_kpa_gauge !== undefined && { vacuum_kpa_gauge }),
       ...(made && { reservoir_volume_ml }),
       ...(Object.keys(ids).length === 0 && { tank_fill_kpa_gauge }),
     },
