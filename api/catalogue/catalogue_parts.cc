@@ -7,6 +7,7 @@
 #include <string>
 
 #include "api/json/units.h"
+#include "catalog/fields/price.h"
 #include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
@@ -30,15 +31,22 @@ double DeepestImagePa(const model::Ambient& ambient) {
 }
 
 model::PartBasics Basics(const catalog::Part& row) {
-  return {row.id, Required(row, "mass_kg"), M3FromMl(Required(row, "body_volume_ml")),
-          Optional(row, "price_eur"), row.series};
+  return {.id = row.id,
+          .mass_kg = Required(row, "mass_kg"),
+          .body_volume_m3 = M3FromMl(Required(row, "body_volume_ml")),
+          .cost_eur = Optional(row, "price_eur"),
+          .series = row.series,
+          .pack = catalog::PackOf(row)};
 }
 
 model::Tubing Tubing(const catalog::Part& row, const model::Ambient& ambient) {
   const double outer_m = MFromMm(Required(row, "outer_diameter_mm"));
-  return {.per_metre = {row.id, Required(row, "mass_kg_per_m"),
-                        std::numbers::pi / 4.0 * outer_m * outer_m,
-                        Optional(row, "price_eur_per_m"), row.series},
+  return {.per_metre = {.id = row.id,
+                        .mass_kg = Required(row, "mass_kg_per_m"),
+                        .body_volume_m3 = std::numbers::pi / 4.0 * outer_m * outer_m,
+                        .cost_eur = Optional(row, "price_eur_per_m"),
+                        .series = row.series,
+                        .pack = catalog::PackOf(row)},
           .outer_diameter_m = outer_m,
           .inner_diameter_m = MFromMm(Required(row, "inner_diameter_mm")),
           .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};

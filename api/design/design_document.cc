@@ -46,6 +46,21 @@ Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& pro
   return row;
 }
 
+// What is bought in packs, and what of it is left over.
+Json RenderPacks(const std::vector<optimizer::PackRow>& packs) {
+  Json list = Json::array();
+  for (const optimizer::PackRow& row : packs)
+    list.push_back({{"family", optimizer::Name(row.family)},
+                    {"id", row.id},
+                    {"unit", row.family == optimizer::Family::kTubing ? "m" : "piece"},
+                    {"quantity", Number(row.quantity)},
+                    {"pack", Number(row.pack)},
+                    {"packs", Number(row.packs)},
+                    {"left_over", Number(row.packs * row.pack - row.quantity)},
+                    {"cost_eur", Number(row.cost_eur)}});
+  return list;
+}
+
 Json RenderSettings(const optimizer::Settings& settings, const optimizer::Problem& problem) {
   const auto& duty = settings.valve_duty;
   const Json source = Number(optimizer::KpaGauge(problem, settings.source_pressure_pa));
@@ -279,7 +294,8 @@ Json RenderClaim(const optimizer::Design& design, int rank, const optimizer::Pro
   Json json = {{"rank", rank},
                {"configuration", optimizer::Name(design.configuration)},
                {"objective", Number(design.objective)},
-               {"parts", parts}};
+               {"parts", parts},
+               {"packs", RenderPacks(design.packs)}};
   json.update(RenderFigures(design, problem));
   return json;
 }

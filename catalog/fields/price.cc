@@ -91,7 +91,13 @@ void DerivePrice(Part& part) {
   part.numbers[field] = {*EuroAPiece(*offer), Provenance::kDerived, SourceOf(*offer)};
 }
 
+double PackOf(const Part& part) {
+  const Offer* offer = NewestOffer(part.offers);
+  return offer == nullptr || offer->pack == 1.0 ? 0.0 : offer->pack;
+}
+
 void MakeFree(Part& part) {
+  part.offers.clear();
   const std::string field = PriceField(part.family);
   if (!field.empty()) part.numbers[field] = {0.0, Provenance::kDerived, "at hand"};
 }

@@ -42,7 +42,11 @@ const Offer* NewestOffer(const std::vector<Offer>& offers);
 // its price.
 void DerivePrice(Part& part);
 
-// Makes the part's price 0, as of one that is at hand.
+// How many pieces, of tubing metres, the newest offer sells together; 0: any number, as of a part
+// that is sold by the piece, of a tube by the metre, or without an offer that counts.
+double PackOf(const Part& part);
+
+// Makes the part's price 0 and takes its offers out, as of one that is at hand.
 void MakeFree(Part& part);
 
 }  // namespace plenum::catalog

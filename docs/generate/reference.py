@@ -66,7 +66,9 @@ def example_answers(program):
     judged["ranking"] = {"proof": True}
     bottled = program.example("tank_arm")
     bottled["supply"] = {"configurations": ["cylinder"]}
-    documents = [priced, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
+    in_packs = program.example("mckibben_glove")
+    in_packs["supply"] = {"configurations": ["co2"]}
+    documents = [priced, in_packs, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
                  program.example("tank_arm"), bottled,
                  program.example("orthosis"), program.example("refilled_arm")]
     return [program.answer("design", one) for one in documents]

@@ -23,6 +23,9 @@ struct PartBasics {
   std::string series = {};         // that its variants share; empty: it is its own
   double mass_slack_kg = 0.0;      // what it may weigh more; limits hold with it
   double body_volume_slack_m3 = 0.0;
+  // Pieces, of a tube metres, that are sold together; 0: any number is sold. `cost_eur` is that of
+  // one of them.
+  double pack = 0.0;
   bool operator==(const PartBasics&) const = default;
 };
 

@@ -6,7 +6,9 @@
 #include "optimizer/bounds/highest_source.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/packs.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::optimizer {
 
@@ -15,6 +17,21 @@ std::vector<ReservoirNeed> NeedsOf(const Box& box) {
   for (const VolumeNeed& volume : *box.volumes)
     if (std::isfinite(volume.rest)) needs.push_back(volume.need);
   return needs;
+}
+
+double PackSurplus(const Problem& problem, const Plan& plan, const Box& box) {
+  if (!plan.shares_packs) return 0.0;
+  std::vector<Choice> rows;
+  for (std::size_t s = 0; s < plan.slots.size(); ++s) {
+    const Slot& slot = plan.slots[s];
+    const BoxNode& node = (*slot.nodes)[box.nodes[s]];
+    if (!node.single()) return 0.0;
+    const Option& option = (*slot.options)[node.first];
+    if (option.index < 0) continue;
+    rows.push_back({slot.family, BasicsOf(problem.parts, slot.family, option.index).id, slot.group,
+                    PiecesOf(problem, slot.family, slot.group, option.index, option.quantity)});
+  }
+  return PackSurplus(problem, rows);
 }
 
 Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
@@ -286,6 +303,7 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   choose(plan_.battery_slot, candidate.battery);
   choose(plan_.rail.pump_slot, candidate.rail_pump);
   choose(plan_.rail.reservoir_slot, candidate.rail_reservoir);
+  candidate.pack_surplus_eur = PackSurplus(problem_, plan_, box);
   return candidate;
 }
 

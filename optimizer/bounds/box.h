@@ -81,6 +81,8 @@ struct Box {
 };
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box);
+// Of the packs of a single combination (packs.h); 0 for a box of several.
+double PackSurplus(const Problem& problem, const Plan& plan, const Box& box);
 // Puts the choices of all lines together.
 void CombineChoices(Box& box);
 double LinesObjective(const Box& box);

@@ -16,6 +16,7 @@ Constraint Bounds::SizeCore(Box& box) {
   if (!box.core) {
     Candidate candidate = CandidateOf(box);
     candidate.battery = {};
+    candidate.pack_surplus_eur = 0.0;  // as where more than the battery is open
     box.core = std::make_shared<CoreSizing>(
         CoreSizing{{box.lines.begin(), box.lines.end()},
                    CustomSizing(problem_, std::move(candidate), NeedsOf(box))});
@@ -40,7 +41,9 @@ std::optional<Leaf> LeafOfCore(const Problem& problem, const Candidate& candidat
       SupplyMargin(problem, candidate, leaf.point, evaluation) < 0.0)
     return std::nullopt;
   leaf.objective = ObjectiveValue(problem, candidate, leaf.point, evaluation);
-  leaf.lower_bound = std::min(leaf.objective, leaf.lower_bound + candidate.battery.objective);
+  leaf.lower_bound =
+      std::min(leaf.objective, leaf.lower_bound + candidate.battery.objective +
+                                   problem.objective.cost_eur * candidate.pack_surplus_eur);
   return leaf;
 }
 

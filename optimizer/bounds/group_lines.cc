@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
 
 #include "optimizer/bounds/line_parts.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
@@ -239,6 +241,38 @@ std::optional<GroupLines::Nodes> GroupLines::LeastAt(int group, const NodeMeans&
   const GroupTrees& trees = plan_.groups[group];
   return Nodes{LeafOf(trees.tubes.nodes, places[0]), LeafOf(trees.fittings.nodes, places[1]),
                LeafOf(trees.valves.nodes, places[2])};
+}
+
+// Best first by what boxes of lines need.
+std::optional<GroupLines::Nodes> GroupLines::StrongestAt(int group, double source_pa) {
+  constexpr int kLooks = 4000;
+  using Open = std::pair<double, Nodes>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  const auto push = [&](const Nodes& nodes) {
+    const std::optional<NodeMeans>& needs = NeedOf(group, nodes);
+    if (needs && needs->Within(MostOf(group)))
+      open.emplace(needs->rise_pa + needs->inflate_pa, nodes);
+  };
+  push({0, 0, 0});
+  for (int looks = 0; !open.empty() && looks < kLooks; ++looks) {
+    if (bench_ != nullptr && bench_->stopped()) break;
+    const Nodes nodes = open.top().second;
+    open.pop();
+    const LineParts parts = PartsOf(plan_.groups[group], nodes);
+    if (parts.corners.valve.pressure_min_pa > source_pa) continue;
+    if (!parts.single()) {
+      Nodes half = nodes;
+      const int widest = parts.widest();
+      for (const int child : {parts.nodes[widest]->left, parts.nodes[widest]->right}) {
+        half[widest] = child;
+        push(half);
+      }
+    } else if (AssembleLine(problem_, group, gas_, parts.corners, true).source_max_pa >=
+               source_pa) {
+      return nodes;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace plenum::optimizer

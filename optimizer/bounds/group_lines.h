@@ -42,6 +42,9 @@ class GroupLines {
   // needs this share of one of them, and works at this source pressure, by the leaves of its parts.
   std::optional<Nodes> LeastAt(int group, const NodeMeans& most, double share, double source_pa);
 
+  // The single line that makes do with the least at the node and works at this source pressure.
+  std::optional<Nodes> StrongestAt(int group, double source_pa);
+
   // The objective has other weights of the amounts, and so have the trees.
   void ChangeWeights();
 

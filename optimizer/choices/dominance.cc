@@ -19,6 +19,15 @@ bool ListedFirst(const Contender& a, const Contender& b) {
   return a.tie != b.tie ? a.tie < b.tie : EarlierId(a, b);
 }
 
+// Whether a is listed first whatever packs other choices of a design share with the two.
+bool SurelyFirst(const Contender& a, const PackEnd& most, const Contender& b, const PackEnd& least,
+                 double tie) {
+  if (most.cost_eur > least.cost_eur) return false;
+  if (most.objective < least.objective - tie) return true;
+  return most.objective <= least.objective &&
+         (most.tie != least.tie ? most.tie < least.tie : EarlierId(a, b));
+}
+
 // The contenders by id and quantity. Most ids differ in their first characters, which are kept with
 // what is sorted.
 void SortById(const std::vector<Contender>& contenders, std::vector<int>& chosen) {
@@ -152,7 +161,7 @@ class KeptLosses {
 }  // namespace
 
 Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bool name_left_out,
-                 const std::function<bool()>& stop) {
+                 const std::function<bool()>& stop, const std::vector<PackEnds>& ends) {
   constexpr int kBetweenLooks = 256;
   if (contenders.empty()) return {};
   // Closer together than in the contenders, which are not read in their order.
@@ -185,6 +194,9 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
       const Share& better = kept[other];
       const Contender &a = contenders[better.contender], &b = contenders[share.contender];
       if (!(better.objective < share.objective - tie || ListedFirst(a, b))) return true;
+      if (!ends.empty() &&
+          !SurelyFirst(a, ends[better.contender].most, b, ends[share.contender].least, tie))
+        return true;
       if (a.series >= 0 && a.series == b.series) {
         dominated = k;
         dominators.assign(1, a.item);

@@ -38,6 +38,16 @@ struct Contender {
   Losses losses;  // smaller is better, as many for each choice of a family
 };
 
+// What a choice adds to a design, where other choices may share its packs (packs.h).
+struct PackEnd {
+  double objective = 0.0;
+  double cost_eur = 0.0;  // where a limit counts it
+  TieShare tie = {};
+};
+struct PackEnds {
+  PackEnd most, least;
+};
+
 struct Skyband {
   std::vector<int> kept;     // indices into the contenders, by id and quantity
   std::vector<int> outdone;  // of each contender that is kept: by how many others it is dominated
@@ -45,9 +55,10 @@ struct Skyband {
 };
 
 // `tie`: objectives closer than this may tie. `name_left_out`: fill Skyband::left_out.
+// `ends`: empty, or of each contender: then A at its most must be no worse than B at its least.
 // Told to stop, it gives nothing that can be used.
 Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bool name_left_out,
-                 const std::function<bool()>& stop = {});
+                 const std::function<bool()>& stop = {}, const std::vector<PackEnds>& ends = {});
 
 }  // namespace plenum::optimizer
 

@@ -57,6 +57,7 @@ struct Plan {
   bool own_regulators = false;
   bool equal_flow = false;  // as in ProofPlan
   double tie = 0.0;
+  bool shares_packs = false;  // a design may have a surplus (packs.h)
   std::vector<GroupTrees> groups;
   std::vector<BoxTree<RegulatorCorner>> regulators;  // one for all groups, or of each
   BoxTree<BottleCorner> bottles;
@@ -71,8 +72,9 @@ struct Plan {
   BottleRange bottle_range;
   double highest_pump_pa = 0.0;
 
-  BigCount combinations, unpriced, dominated;  // the trees hold what is left of them
-  bool empty() const;                          // some slot has no choice
+  BigCount combinations;  // the trees hold what unpriced and dominated ones leave of them
+  Pruned pruned;
+  bool empty() const;  // some slot has no choice
 };
 
 // Gas left in 1 m³ of a bottle at an inlet pressure, m³ ANR.

@@ -5,6 +5,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/evaluate/packs.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/pump_feed.h"
 
@@ -30,6 +31,9 @@ Amounts ChoiceAmounts(const Problem& problem, const Design& design, const Choice
   Amounts amounts{row.mass_kg, row.volume_m3, row.cost_eur.value_or(0.0)};
   const int part = FindPart(problem.parts, row.family, row.id);
   if (part < 0) return amounts;
+  amounts.cost_eur = Counted(row.quantity, BasicsOf(problem.parts, row.family, part),
+                             SharesPacks(problem, row.group))
+                         .cost_eur;
   if (row.family == Family::kTank)
     amounts.mass_kg = row.quantity * problem.parts.tanks[part].basics.mass_kg +
                       row.quantity * LeastTankCharge(problem, part);
@@ -75,6 +79,7 @@ TieKey TieKeyOf(const Problem& problem, const Design& design) {
   for (const Choice& row : design.parts)
     if (!SpecOf(row.family).joins)
       key.share += TieShareOf(problem.objective, ChoiceAmounts(problem, design, row));
+  key.share += TieShareOf(problem.objective, {0.0, 0.0, PackSurplus(problem, design.parts)});
   return key;
 }
 

@@ -169,6 +169,7 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
         &candidate.reservoir, &candidate.rail_pump, &candidate.rail_reservoir})
     total += option->amounts;
   for (const Option& own : candidate.own_regulators) total += own.amounts;
+  total.cost_eur += candidate.pack_surplus_eur;
   if (point.tank_fill_pa > 0.0)
     total.mass_kg += ChargeBeyondLeast(problem, candidate, point.tank_fill_pa);
   if (candidate.reservoir.index != kCustom) return total;

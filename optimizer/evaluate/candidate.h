@@ -43,6 +43,7 @@ struct Candidate {
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;
+  double pack_surplus_eur = 0.0;  // of a finished one (packs.h); else not known, and 0
   // Of a problem with a guarantee: valves that cannot hold as they are with these parts, which is
   // the best that may be said of them; else at their worst.
   bool at_best = false;

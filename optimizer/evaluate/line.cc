@@ -32,6 +32,12 @@ Amounts operator*(double quantity, const model::PartBasics& basics) {
           quantity * basics.body_volume_slack_m3};
 }
 
+Amounts Bought(double quantity, const model::PartBasics& basics) {
+  Amounts amounts = quantity * basics;
+  amounts.cost_eur = PackCost(quantity, basics);
+  return amounts;
+}
+
 Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint) {
   if (!joint) return {};
   return joint->quantity * BasicsOf(problem.parts, joint->family, joint->part);
@@ -47,18 +53,24 @@ Amounts LineJointShare(const Problem& problem, int group, bool own_regulators) {
           share * all.mass_slack_kg, share * all.volume_slack_m3};
 }
 
+std::vector<Joint> SourceJoints(const Problem& problem, Family family, int part, int quantity,
+                                bool own_regulators) {
+  const bool source = SpecOf(family).kind_role == KindRole::kSource;
+  if (problem.pump_feed != PumpFeed::kShared && source)
+    return JointsOfFeeds(problem, family, part, quantity);
+  std::vector<Joint> joints;
+  if (const auto joint = JointOfPieces(problem, family, part, quantity)) joints.push_back(*joint);
+  if (own_regulators && source)
+    if (const auto joint = JointOfOwnRegulators(problem, family, part)) joints.push_back(*joint);
+  return joints;
+}
+
 Amounts SourceJoint(const Problem& problem, Family family, int part, int quantity,
                     bool own_regulators) {
-  if (problem.pump_feed != PumpFeed::kShared && SpecOf(family).kind_role == KindRole::kSource) {
-    Amounts joints;
-    for (const Joint& joint : JointsOfFeeds(problem, family, part, quantity))
-      joints += JointAmounts(problem, joint);
-    return joints;
-  }
-  Amounts joint = JointAmounts(problem, JointOfPieces(problem, family, part, quantity));
-  if (own_regulators && SpecOf(family).kind_role == KindRole::kSource)
-    joint += JointAmounts(problem, JointOfOwnRegulators(problem, family, part));
-  return joint;
+  Amounts amounts;
+  for (const Joint& joint : SourceJoints(problem, family, part, quantity, own_regulators))
+    amounts += JointAmounts(problem, joint);
+  return amounts;
 }
 
 Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group) {

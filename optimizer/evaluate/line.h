@@ -35,7 +35,9 @@ struct AmountsOf {
   }
 };
 using Amounts = AmountsOf<double>;
+// `*`: each piece at its share of a pack. Bought(): in whole packs.
 Amounts operator*(double quantity, const model::PartBasics& basics);
+Amounts Bought(double quantity, const model::PartBasics& basics);
 
 // Of a joint (joints.h), and of a group's lines that share of the joint of all lines that their
 // number has, or behind its own regulator or pumps the joint that they have alone.
@@ -44,6 +46,8 @@ Amounts LineJointShare(const Problem& problem, int group, bool own_regulators);
 // Of what joins pieces of a source and, where groups have their own, the regulators to it; of pumps
 // of all feeds. At the mains, where the source is no part, these count with the regulator of the
 // first group.
+std::vector<Joint> SourceJoints(const Problem& problem, Family family, int part, int quantity,
+                                bool own_regulators);
 Amounts SourceJoint(const Problem& problem, Family family, int part, int quantity,
                     bool own_regulators);
 Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group);

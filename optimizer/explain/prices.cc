@@ -49,7 +49,7 @@ double Carried(const Problem& problem, const Design& design, const model::PartBa
   double quantity = 0.0;
   for (const Choice& choice : design.parts)
     if (choice.id == basics.id) quantity += choice.quantity;
-  return ObjectiveOf(problem.objective, quantity * basics);
+  return ObjectiveOf(problem.objective, Bought(quantity, basics));
 }
 
 void Scale(model::PartBasics& basics, double factor) {

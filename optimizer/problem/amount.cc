@@ -8,7 +8,8 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kEurPerKg = 1e-3;  // where unknown prices count as 0
+constexpr double kEurPerKg = 1e-3;      // where unknown prices count as 0
+constexpr double kPackRounding = 1e-9;  // of a pack: lengths of several tubes are sums
 
 }  // namespace
 
@@ -58,6 +59,15 @@ double Of(Amount amount, const Totals& totals) {
       return totals.energy_j / kJoulePerWattHour;
   }
   return std::nan("");
+}
+
+double PacksFor(double quantity, const model::PartBasics& basics) {
+  return basics.pack > 0.0 ? std::ceil(quantity / basics.pack - kPackRounding) : 0.0;
+}
+
+double PackCost(double quantity, const model::PartBasics& basics) {
+  const double bought = basics.pack > 0.0 ? PacksFor(quantity, basics) * basics.pack : quantity;
+  return bought * basics.cost_eur.value_or(0.0);
 }
 
 bool CostCounts(const Problem& problem) {

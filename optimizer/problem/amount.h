@@ -17,6 +17,11 @@ double Of(Amount amount, const Totals& totals);
 // The problem's limit on an amount, in the same unit; energy has none.
 double& LimitOn(Amount amount, Problem& problem);
 
+// Packs that hold so many pieces of a part, or metres of a tube; 0 where any number is sold. And
+// what these packs cost, 0 without a price.
+double PacksFor(double quantity, const model::PartBasics& basics);
+double PackCost(double quantity, const model::PartBasics& basics);
+
 // Whether cost is minimised or limited; and whether a part without a price is then no choice.
 bool CostCounts(const Problem& problem);
 bool PricesNeeded(const Problem& problem);

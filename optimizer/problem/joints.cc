@@ -21,7 +21,7 @@ int PiecesFor(int joined, const model::Manifold& manifold) {
 // What orders the rows that may be taken.
 auto KeyOf(const model::Manifold& manifold, int quantity) {
   const model::PartBasics& one = manifold.basics;
-  return std::tuple(quantity * one.mass_kg, quantity * one.cost_eur.value_or(0.0), one.id);
+  return std::tuple(quantity * one.mass_kg, PackCost(quantity, one), one.id);
 }
 
 std::optional<Joint> Lightest(const Problem& problem, int joined, double pressure_pa,
@@ -86,9 +86,9 @@ bool MayFeedRegulators(Family family) {
 
 // ── check valves ──
 
-auto RankOf(const model::CheckValve& row) {
-  return std::tuple(!row.basics.cost_eur, row.basics.mass_kg, row.basics.cost_eur.value_or(0.0),
-                    row.basics.id);
+auto RankOf(const Problem& problem, const model::CheckValve& row) {
+  return std::tuple(!row.basics.cost_eur, row.basics.mass_kg,
+                    PackCost(FeedsOf(problem), row.basics), row.basics.id);
 }
 
 model::MonotoneCurve Lowered(const model::MonotoneCurve& curve, double by_pa) {
@@ -185,7 +185,7 @@ int CheckValveOf(const Problem& problem, const model::Parts& parts) {
     const bool serves = row.pressure_max_pa >= stands_pa &&
                         row.sonic_conductance_m3_per_s_pa >= passes &&
                         (!PricesNeeded(problem) || row.basics.cost_eur);
-    if (serves && (best < 0 || RankOf(row) < RankOf(rows[best]))) best = i;
+    if (serves && (best < 0 || RankOf(problem, row) < RankOf(problem, rows[best]))) best = i;
   }
   return best;
 }

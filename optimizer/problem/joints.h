@@ -4,9 +4,9 @@
 //
 // n lines, or pieces, need pieces of one row whose stations suffice in a tree: ⌈(n − 1)/(k − 1)⌉ of
 // k stations. Of the rows that stand the pressure and pass enough the one whose pieces together are
-// lightest, whatever the objective; ties go by cost and id. Rows with a price go before those
-// without, which are none where cost counts. Where no row passes enough it is of those that pass
-// most. Where none stands the pressure there is no joint, and nothing counts.
+// lightest, whatever the objective; ties go by the cost of their packs and id. Rows with a price go
+// before those without, which are none where cost counts. Where no row passes enough it is of those
+// that pass most. Where none stands the pressure there is no joint, and nothing counts.
 //
 // Enough, for lines, is kJointFactor times what all actuators ask who fill at once within their
 // rise times (JointConductance below). It would slow lines which are just fast enough by 2 or 3 %

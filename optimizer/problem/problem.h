@@ -251,7 +251,7 @@ struct Choice {
   int group = -1;                         // −1: shared by all; of a regulator: its own
   double quantity = 1;                    // pieces; for tubing the metres
   double mass_kg = 0.0, volume_m3 = 0.0;  // whole row, gas charge included
-  std::optional<double> cost_eur;
+  std::optional<double> cost_eur = {};    // by its share of the packs that are bought (packs.h)
 };
 
 struct Settings {
@@ -299,6 +299,17 @@ struct MarginOf {
 };
 using Margin = MarginOf<double>;
 
+// What is bought of a part that is sold in packs, for all its rows.
+struct PackRow {
+  Family family;
+  std::string id;
+  double quantity = 0.0;  // that the design needs; pieces, for tubing metres
+  double pack = 0.0;      // that one pack holds
+  double packs = 0.0;
+  double cost_eur = 0.0;
+  bool operator==(const PackRow&) const = default;
+};
+
 // A design of the same kind as a listed one that does nearly as well.
 struct Variant {
   double objective = 0.0;
@@ -314,6 +325,7 @@ struct Variants {
 struct Design {
   Configuration configuration;
   std::vector<Choice> parts;
+  std::vector<PackRow> packs = {};
   Settings settings;
   Totals totals;
   Performance performance;
@@ -329,23 +341,6 @@ struct Design {
 
 enum class Status { kOptimal, kFeasible, kInfeasible, kCancelled };
 const char* Name(Status status);
-
-struct Pruned {
-  BigCount incompatible, infeasible, bound, dominated, unpriced;
-};
-
-struct Proof {
-  BigCount combinations;
-  bool complete = false;
-  double lower_bound = 0.0;  // of the objective of every design not listed
-  double gap = 0.0;
-  long long boxes = 0;      // looked at
-  BigCount evaluated;       // leaves sized
-  long long simulated = 0;  // designs that went through the simulator
-  long long undecided = 0;  // leaves that could be neither sized nor refuted
-  Pruned pruned;
-  std::shared_ptr<const ProofRecord> record;  // where SearchOptions asks for it
-};
 
 // An entry of a conflict: a field of the request that can be dropped or loosened.
 struct Conflict {

@@ -18,7 +18,8 @@
 //    A dominates B if at every setting B can be replaced by A without missing a requirement:
 //      * amounts (mass; outer volume; cost) of A are no larger where a limit is on them, and A's
 //        share of the objective is smaller by more than Plan::tie, or no larger while A's
-//        (id, quantity) comes first in the order of bytes;
+//        (id, quantity) comes first in the order of bytes; of packs that other choices may share
+//        (packs.h of evaluate/) A counts with the most that they cost, B with the least;
 //      * tube: same outer and inner diameter, pressure_max no smaller;
 //        fitting: same diameter and thread, C, b, pressure_max no smaller;
 //        valve: same port, both hold or neither does, C and b of fill and exhaust no smaller, coil
@@ -80,7 +81,10 @@
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 
 #include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "optimizer/problem/big_count.h"
 
 namespace plenum::optimizer {
 
@@ -152,6 +156,23 @@ struct ProofPlan {
 struct ProofRecord {
   int count = 0;
   std::vector<ProofPlan> plans;
+};
+
+struct Pruned {
+  BigCount incompatible, infeasible, bound, dominated, unpriced;
+};
+
+struct Proof {
+  BigCount combinations;
+  bool complete = false;
+  double lower_bound = 0.0;  // of the objective of every design not listed
+  double gap = 0.0;
+  long long boxes = 0;      // looked at
+  BigCount evaluated;       // leaves sized
+  long long simulated = 0;  // designs that went through the simulator
+  long long undecided = 0;  // leaves that could be neither sized nor refuted
+  Pruned pruned;
+  std::shared_ptr<const ProofRecord> record;  // where SearchOptions asks for it
 };
 
 }  // namespace plenum::optimizer

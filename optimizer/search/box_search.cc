@@ -62,10 +62,10 @@ class BoxSearch {
   bool stopped() const { return watch_.stopped() || steps_ > options_.steps_max; }
   bool Stopped() { return stopped() || watch_.Stopped(); }
 
-  // Plants the configurations come to, or all where a record is wanted. False if stopped before.
-  bool PlantReached() {
+  // Plants the configurations come to, or all; a record names all. False if stopped before.
+  bool PlantReached(bool all = false) {
     const auto reached = [&] {
-      if (options_.record) return kUnlimited;
+      if (all || options_.record) return kUnlimited;
       const double next = open_.empty() ? kUnlimited : open_.top()->box.bound;
       return std::min(next < ranking_.run_begin() ? next : ranking_.run_end(), objective_limit_);
     };
@@ -78,8 +78,8 @@ class BoxSearch {
     Bounds* bounds = configurations_.PlantNext();
     if (!bounds) return false;
     const Plan& plan = bounds->plan();
-    proof_.pruned.unpriced += plan.unpriced;
-    proof_.pruned.dominated += plan.dominated;
+    proof_.pruned.unpriced += plan.pruned.unpriced;
+    proof_.pruned.dominated += plan.pruned.dominated;
     if (plan.empty()) return true;
     auto node = std::make_unique<Node>();
     node->bounds = bounds;
@@ -262,6 +262,8 @@ class BoxSearch {
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
     const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
+    if (slow && problem_.groups.size() > 1 && ranking_.list().empty() && !PlantReached(true))
+      return;
     const auto list = [](const auto&... asked) { return ListCombinations(asked...).combinations; };
     SeekFirst(problem_, Due(problem_, configurations_.planted(), slow, sought_), options_, list,
               watch_, bench_.stop, ranking_);
@@ -272,8 +274,7 @@ class BoxSearch {
     const double from_s = options_.any_design ? 0.0 : kDiveFrom * options_.time_limit_s;
     if (sought_.deep || watch_.looked_s() < from_s) return;
     sought_.deep = true;
-    while (!configurations_.waiting().empty())
-      if (!PlantNext()) return;
+    if (!PlantReached(true)) return;
     const auto& all = configurations_.planted();
     for (const std::unique_ptr<Bounds>& bounds : all)
       watch_.DiveFor(kDiveShare / static_cast<double>(all.size()),

@@ -49,6 +49,7 @@ TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
   for (int s : {plan.bottle_slot, plan.compressor_slot, plan.rail.pump_slot, plan.battery_slot,
                 plan.reservoir_slot, plan.rail.reservoir_slot})
     add(s);
+  key.share += TieShareOf(problem.objective, {0.0, 0.0, PackSurplus(problem, plan, box)});
   return key;
 }
 

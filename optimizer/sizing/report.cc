@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/closing.h"
+#include "optimizer/evaluate/packs.h"
 #include "optimizer/evaluate/refilled_tank.h"
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/effect_strokes.h"
@@ -23,15 +24,13 @@ constexpr double kConfirmTolerance = 1e-5;
 constexpr int kSamplesPerCycle = 400;
 
 Choice PieceChoice(Family family, const model::PartBasics& basics, int group, double quantity) {
-  Choice choice{family,
-                basics.id,
-                group,
-                quantity,
-                quantity * basics.mass_kg,
-                quantity * basics.body_volume_m3,
-                std::nullopt};
-  if (basics.cost_eur) choice.cost_eur = quantity * *basics.cost_eur;
-  return choice;
+  return {family,
+          basics.id,
+          group,
+          quantity,
+          quantity * basics.mass_kg,
+          quantity * basics.body_volume_m3,
+          std::nullopt};
 }
 
 void AddChoice(const Problem& problem, Family family, const Option& option,
@@ -255,6 +254,7 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
   for (const Joint& joint : JointsOf(problem, parts))
     parts.push_back(PieceChoice(joint.family, BasicsOf(problem.parts, joint.family, joint.part), -1,
                                 joint.quantity));
+  SetCosts(problem, parts);
   return parts;
 }
 
@@ -294,6 +294,7 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   Design design;
   design.configuration = candidate.configuration;
   design.parts = ListParts(problem, candidate, filled);
+  design.packs = PacksOf(problem, design.parts);
   design.totals = TotalsOf(design.parts);
   design.totals.energy_j = evaluation.energy_total_j;
   design.settings.source_pressure_pa = point.source_pa;

@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/choices/plant/part_numbers.h"
+#include "optimizer/evaluate/packs.h"
 #include "optimizer/evaluate/relaxation.h"
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/stroke_rig.h"
@@ -59,7 +60,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   constexpr Kinds kMate = 1;  // they do
   const auto set = [&](Family family, int part, double bought, auto& corner) {
     SetNumbers(PartNumbers{parts, part, static_cast<double>(group.count)}, corner);
-    corner.amounts = bought * BasicsOf(parts, family, part);
+    corner.amounts = Counted(bought, BasicsOf(parts, family, part), SharesPacks(problem, g));
   };
   TubeCorner tube_corner;
   set(Family::kTubing, tube, group.count * group.tube_length_m, tube_corner);
@@ -93,7 +94,7 @@ bool SetOwnRegulators(const Problem& problem, const Design& design, Candidate& c
     Option& own = candidate.own_regulators.emplace_back();
     own.index = part;
     own.quantity = 1;
-    own.amounts = 1.0 * problem.parts.regulators[part].basics;
+    own.amounts = Counted(1.0, problem.parts.regulators[part].basics, SharesPacks(problem, g));
     own.amounts += OwnRegulatorJointAtMains(problem, design.configuration, g);
     own.objective = ObjectiveOf(problem.objective, own.amounts);
   }
@@ -115,7 +116,7 @@ bool SetOptions(const Problem& problem, const Design& design, Candidate& candida
       option.quantity = 1;
       continue;
     }
-    option.amounts = choice->quantity * BasicsOf(problem.parts, spec.family, option.index);
+    option.amounts = Bought(choice->quantity, BasicsOf(problem.parts, spec.family, option.index));
     option.amounts.mass_kg += choice->quantity * ChargeKg(problem, spec.family, option.index);
     option.amounts += SourceJoint(problem, spec.family, option.index, option.quantity,
                                   HasOwnRegulators(candidate));
@@ -143,6 +144,7 @@ bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& desig
     line.chamber.dead_volume_m3 += bore_m3;
     rebuilt.candidate.lines.push_back(&line);
   }
+  rebuilt.candidate.pack_surplus_eur = PackSurplus(problem, design.parts);
   return SetOwnRegulators(problem, design, rebuilt.candidate) &&
          SetOptions(problem, design, rebuilt.candidate);
 }

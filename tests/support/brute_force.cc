@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "model/physics/storage.h"
 #include "tests/support/pumps/direct_sizing.h"
@@ -292,6 +295,49 @@ void ForEachCombination(const Problem& problem, const Visit& visit) {
   }
 }
 
+namespace {
+
+// What whole packs cost beyond pieces at price/pack, id by id.
+double SurplusByHand(const Problem& problem, const Candidate& candidate) {
+  std::map<std::string, std::pair<const model::PartBasics*, double>> needs;
+  const auto need = [&](const model::PartBasics& basics, double pieces) {
+    auto& entry = needs[basics.id];
+    entry.first = &basics;
+    entry.second += pieces;
+  };
+  for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
+    const Line& line = *candidate.lines[g];
+    const optimizer::ActuatorGroup& group = problem.groups[g];
+    const model::Valve& valve = problem.parts.valves[line.valve];
+    need(valve.basics, std::ceil(static_cast<double>(group.count) / valve.channels));
+    if (line.fitting >= 0)
+      need(problem.parts.fittings[line.fitting].basics, group.count * group.fittings_per_line);
+    need(problem.parts.tubing[line.tubing].per_metre, group.count * group.tube_length_m);
+  }
+  const auto add = [&](const auto& family, const Option& option, int times = 1) {
+    if (option.index >= 0) need(family[option.index].basics, option.quantity * times);
+  };
+  add(problem.parts.regulators, candidate.regulator);
+  if (candidate.configuration == Configuration::kCylinder)
+    add(problem.parts.cylinders, candidate.bottle);
+  if (candidate.configuration == Configuration::kCo2) add(problem.parts.co2, candidate.bottle);
+  if (HasTank(candidate.configuration)) add(problem.parts.tanks, candidate.bottle);
+  add(PumpsOf(problem, candidate.configuration), candidate.compressor, FeedsByHand(problem));
+  add(problem.parts.batteries, candidate.battery);
+  add(problem.parts.reservoirs, candidate.reservoir);
+  double surplus_eur = 0.0;
+  for (const auto& [id, entry] : needs) {
+    const auto& [basics, pieces] = entry;
+    if (!basics->cost_eur || !(basics->pack > 0.0)) continue;
+    int packs = 0;
+    while (packs * basics->pack < pieces - 1e-9) ++packs;
+    surplus_eur += (packs * basics->pack - pieces) * *basics->cost_eur;
+  }
+  return surplus_eur;
+}
+
+}  // namespace
+
 double StockVolume(const Problem& problem, const Candidate& candidate) {
   if (HasTank(candidate.configuration) && candidate.bottle.index >= 0)
     return candidate.bottle.quantity * problem.parts.tanks[candidate.bottle.index].volume_m3;
@@ -330,7 +376,9 @@ BruteForce Enumerate(const Problem& problem) {
   BruteForce result;
   for (Configuration configuration : problem.configurations)
     result.combinations += Combinations(problem, configuration);
-  ForEachCombination(problem, [&](const Candidate& candidate) {
+  ForEachCombination(problem, [&](const Candidate& counted) {
+    Candidate candidate = counted;
+    candidate.pack_surplus_eur = SurplusByHand(problem, counted);
     const bool made = candidate.reservoir.index == optimizer::kCustom;
     const optimizer::Leaf leaf =
         made ? SizeByScan(problem, candidate) : SizeAlone(problem, candidate);

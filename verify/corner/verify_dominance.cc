@@ -163,6 +163,11 @@ bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
   if (better.part < 0 || worse.part < 0 || better == worse) return false;
   ItemAmounts a = ChoiceAmounts(problem, LayoutOf(plan), slot, better);
   ItemAmounts b = ChoiceAmounts(problem, LayoutOf(plan), slot, worse);
+  // At the most and the least that they cost with packs that others share.
+  a.cost_eur += a.pack_more_eur;
+  a.objective += problem.objective.cost_eur * a.pack_more_eur;
+  b.cost_eur -= b.pack_less_eur;
+  b.objective -= problem.objective.cost_eur * b.pack_less_eur;
   const TieShare share = ShareOfTies(problem, a), other_share = ShareOfTies(problem, b);
   if (slot.family == Family::kTank) {
     AddMostLeft(problem, better, a);

@@ -63,18 +63,18 @@ bool Whole(const Problem& problem, const Assembly& a) {
 // The part's numbers behind a row; gas on board comes on top of the mass.
 struct Expected {
   double mass_kg = 0.0, volume_m3 = 0.0;
-  std::optional<double> cost_eur;
+  const model::PartBasics* part = nullptr;  // so many pieces of it; null: made to measure
+  double pieces = 0.0;
   double mass_slack_kg = 0.0, volume_slack_m3 = 0.0;
 };
 
 Expected Times(double quantity, const model::PartBasics& basics, double gas_kg = 0.0) {
-  Expected expected{quantity * (basics.mass_kg + gas_kg),
-                    quantity * basics.body_volume_m3,
-                    {},
-                    quantity * basics.mass_slack_kg,
-                    quantity * basics.body_volume_slack_m3};
-  if (basics.cost_eur) expected.cost_eur = quantity * *basics.cost_eur;
-  return expected;
+  return {quantity * (basics.mass_kg + gas_kg),
+          quantity * basics.body_volume_m3,
+          &basics,
+          quantity,
+          quantity * basics.mass_slack_kg,
+          quantity * basics.body_volume_slack_m3};
 }
 
 // Built for the pressure at which its pumps stop.
@@ -83,7 +83,8 @@ Expected Made(const Problem& problem, const Settings& settings) {
       model::MakeReservoir(settings.reservoir_volume_m3.value_or(0.0),
                            settings.source_pressure_pa - problem.ambient.pressure_pa);
   const double share = problem.guarantee ? problem.guarantee->made_share : 0.0;
-  return {made.mass_kg, made.body_volume_m3, {}, share * made.mass_kg, share * made.body_volume_m3};
+  return {made.mass_kg, made.body_volume_m3,  nullptr,
+          1.0,          share * made.mass_kg, share * made.body_volume_m3};
 }
 
 Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cylinder) {
@@ -213,16 +214,14 @@ double ObjectiveOf(const Problem& problem, const Totals& totals) {
 
 Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& settings) {
   Totals totals;
-  totals.cost_eur = 0.0;
+  PackedCosts costs;
   ForEachRow(problem, a, settings, [&](const Expected& part) {
     totals.mass_kg += part.mass_kg;
     totals.volume_m3 += part.volume_m3;
-    totals.cost_known_eur += part.cost_eur.value_or(0.0);
-    if (totals.cost_eur && part.cost_eur)
-      *totals.cost_eur += *part.cost_eur;
-    else
-      totals.cost_eur.reset();
+    costs.Add(part.part, part.pieces);
   });
+  totals.cost_known_eur = costs.Sum();
+  if (costs.known()) totals.cost_eur = totals.cost_known_eur;
   return totals;
 }
 
@@ -365,20 +364,23 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
   if (!Fit(problem, assembly)) findings.push_back({"parts", "parts of the source do not fit"});
   CheckJoints(problem, design, findings);
   CheckCracking(problem, assembly, findings);
+  CheckPacks(problem, design, findings);
   Totals sum;
   double cost_eur = 0.0;
   bool priced = true;
-  for (const Choice& choice : design.parts) {
+  const std::vector<std::optional<double>> costs_eur = RowCosts(problem, design);
+  for (std::size_t i = 0; i < design.parts.size(); ++i) {
+    const Choice& choice = design.parts[i];
     if (!ItemOf(problem, choice)) continue;  // a joint that there is not, told above
     const Expected row = ExpectedRow(problem, design, choice);
     if (!Near(choice.mass_kg, row.mass_kg, kSumTolerance) ||
         !Near(choice.volume_m3, row.volume_m3, kSumTolerance) ||
-        !SameCost(choice.cost_eur, row.cost_eur))
+        !SameCost(choice.cost_eur, costs_eur[i]))
       findings.push_back({"amounts", Row(choice) + ": mass, volume or cost is not the part's"});
     sum.mass_kg += row.mass_kg;
     sum.volume_m3 += row.volume_m3;
-    cost_eur += row.cost_eur.value_or(0.0);
-    priced = priced && row.cost_eur.has_value();
+    cost_eur += costs_eur[i].value_or(0.0);
+    priced = priced && costs_eur[i].has_value();
   }
   if (priced) sum.cost_eur = cost_eur;
   const Totals& totals = design.totals;

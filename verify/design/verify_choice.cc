@@ -12,7 +12,14 @@
 namespace plenum::verify {
 namespace {
 
-void Add(const Problem& problem, const JointRows& rows, double share, ItemAmounts& sum) {
+void AddOpenPacks(double pieces, const model::PartBasics& basics, ItemAmounts& sum) {
+  const auto [more_eur, less_eur] = OpenPacksEur(pieces, basics);
+  sum.pack_more_eur += more_eur;
+  sum.pack_less_eur += less_eur;
+}
+
+// `open`: how many there are depends on the choice.
+void Add(const Problem& problem, const JointRows& rows, double share, bool open, ItemAmounts& sum) {
   for (const auto& [row, pieces] : rows) {
     const model::PartBasics& basics = BasicsOf(problem.parts, row.first, row.second);
     sum.mass_kg += share * pieces * basics.mass_kg;
@@ -20,6 +27,7 @@ void Add(const Problem& problem, const JointRows& rows, double share, ItemAmount
     sum.cost_eur += share * pieces * basics.cost_eur.value_or(0.0);
     sum.mass_slack_kg += share * pieces * basics.mass_slack_kg;
     sum.volume_slack_m3 += share * pieces * basics.body_volume_slack_m3;
+    if (open) AddOpenPacks(pieces, basics, sum);
   }
 }
 
@@ -32,22 +40,22 @@ void AddJoints(const Problem& problem, const Layout& layout, const ProofSlot& sl
   if (slot.family == Family::kTubing) {
     if (problem.pump_feed == PumpFeed::kPerActuator) return;  // with the pumps
     if (problem.pump_feed == PumpFeed::kPerGroup)
-      return Add(problem, JointOfGroup(problem, slot.group), 1.0, sum);
+      return Add(problem, JointOfGroup(problem, slot.group), 1.0, false, sum);
     const double share = static_cast<double>(problem.groups[slot.group].count) / Lines(problem);
-    return layout.own_regulators ? Add(problem, JointOfGroup(problem, slot.group), 1.0, sum)
-                                 : Add(problem, JointOfLines(problem), share, sum);
+    return layout.own_regulators ? Add(problem, JointOfGroup(problem, slot.group), 1.0, false, sum)
+                                 : Add(problem, JointOfLines(problem), share, false, sum);
   }
   if (problem.pump_feed != PumpFeed::kShared) {
     if (slot.family == PumpFamily(layout.configuration))
-      Add(problem, JointsOfFeeds(problem, slot.family, item.part, item.quantity), 1.0, sum);
+      Add(problem, JointsOfFeeds(problem, slot.family, item.part, item.quantity), 1.0, true, sum);
     return;
   }
-  Add(problem, JointOfPieces(problem, slot.family, item.part, item.quantity), 1.0, sum);
+  Add(problem, JointOfPieces(problem, slot.family, item.part, item.quantity), 1.0, true, sum);
   if (!layout.own_regulators) return;
-  Add(problem, JointOfRegulators(problem, slot.family, item.part), 1.0, sum);
+  Add(problem, JointOfRegulators(problem, slot.family, item.part), 1.0, true, sum);
   if (layout.configuration == Configuration::kMains && slot.family == Family::kRegulator &&
       slot.group == 0)
-    Add(problem, JointOfRegulatorsAtMains(problem), 1.0, sum);
+    Add(problem, JointOfRegulatorsAtMains(problem), 1.0, false, sum);
 }
 
 }  // namespace
@@ -79,8 +87,10 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const Pr
     const model::MadeReservoir made = model::MakeReservoir(model::kMadeReservoirSmallestM3,
                                                            least_pa - problem.ambient.pressure_pa);
     const double share = problem.guarantee ? problem.guarantee->made_share : 0.0;
-    sum = {made.mass_kg, made.body_volume_m3,  0.0,
-           0.0,          share * made.mass_kg, share * made.body_volume_m3};
+    sum.mass_kg = made.mass_kg;
+    sum.volume_m3 = made.body_volume_m3;
+    sum.mass_slack_kg = share * made.mass_kg;
+    sum.volume_slack_m3 = share * made.body_volume_m3;
   } else {
     const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
     double pieces = item.quantity * TimesBought(problem, slot.family), gas_kg = 0.0;
@@ -106,9 +116,13 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const Pr
     if (slot.family == Family::kTank)
       gas_kg = ChargeKg(problem, problem.parts.tanks[item.part], LeastLeftPa(problem));
     if (slot.family == Family::kCo2) gas_kg = problem.parts.co2[item.part].co2_mass_kg;
-    sum = {pieces * (basics.mass_kg + gas_kg),     pieces * basics.body_volume_m3,
-           pieces * basics.cost_eur.value_or(0.0), 0.0,
-           pieces * basics.mass_slack_kg,          pieces * basics.body_volume_slack_m3};
+    const bool shared = MaySharePacks(problem, slot.group);
+    sum.mass_kg = pieces * (basics.mass_kg + gas_kg);
+    sum.volume_m3 = pieces * basics.body_volume_m3;
+    sum.cost_eur = shared ? pieces * basics.cost_eur.value_or(0.0) : CostInPacks(pieces, basics);
+    sum.mass_slack_kg = pieces * basics.mass_slack_kg;
+    sum.volume_slack_m3 = pieces * basics.body_volume_slack_m3;
+    if (shared) AddOpenPacks(pieces, basics, sum);
     AddJoints(problem, layout, slot, item, sum);
   }
   const Objective& weight = problem.objective;

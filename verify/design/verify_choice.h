@@ -11,6 +11,8 @@ struct ItemAmounts {
   // Share of the objective, with the energy that a coil or regulator takes at any speed.
   double objective = 0.0;
   double mass_slack_kg = 0.0, volume_slack_m3 = 0.0;  // of tolerances
+  // What it may add to a design's cost otherwise, where other choices share packs with it.
+  double pack_more_eur = 0.0, pack_less_eur = 0.0;
 };
 
 ItemAmounts& operator+=(ItemAmounts& sum, const ItemAmounts& more);  // all but the slacks

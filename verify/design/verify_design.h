@@ -86,6 +86,9 @@ std::optional<Assembly> Assemble(const Problem& problem, const Design& design, F
 void CheckAmounts(const Problem& problem, const Design& design, const Assembly& assembly,
                   Findings& findings);
 
+// Packs that are not what the parts are sold in; in verify_packs.cc.
+void CheckPacks(const Problem& problem, const Design& design, Findings& findings);
+
 // Strokes, air, energy, duties and margins against a simulation of the periodic state. False where
 // the simulator did not get there, or was stopped: nothing is known then.
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,

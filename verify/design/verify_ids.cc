@@ -1,5 +1,6 @@
 #include "verify/design/verify_ids.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "verify/design/cycle/verify_gait.h"
@@ -40,8 +41,15 @@ TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts) {
           cost_alone ? 0 : std::llround(amounts.cost_eur * 1e6)};
 }
 
+TieShare SurplusOfTies(const Problem& problem, double cost_eur, double counted_eur) {
+  ItemAmounts surplus;
+  surplus.cost_eur = std::max(0.0, cost_eur - counted_eur);
+  return ShareOfTies(problem, surplus);
+}
+
 TieKey TieKeyOf(const Problem& problem, const Design& design) {
   TieKey key{{}, IdsOf(design)};
+  double counted_eur = 0.0;
   for (const Choice& row : design.parts) {
     if (SpecOf(row.family).joins) continue;  // it counts with what it joins
     const bool made = row.family == Family::kReservoir && row.id == "custom";
@@ -49,9 +57,14 @@ TieKey TieKeyOf(const Problem& problem, const Design& design) {
         made ? -2 : FindPart(problem.parts, row.family, row.id),
         row.group < 0 ? static_cast<int>(row.quantity) / TimesBought(problem, row.family) : 1};
     if (item.part == -1) continue;  // no part of the catalogue, which another check tells
-    key.share += ShareOfTies(
-        problem, ChoiceAmounts(problem, LayoutOf(design), {row.family, row.group, {}, {}}, item));
+    const ItemAmounts amounts =
+        ChoiceAmounts(problem, LayoutOf(design), {row.family, row.group, {}, {}}, item);
+    counted_eur += amounts.cost_eur;
+    key.share += ShareOfTies(problem, amounts);
   }
+  double cost_eur = 0.0;
+  for (const auto& row_eur : RowCosts(problem, design)) cost_eur += row_eur.value_or(0.0);
+  key.share += SurplusOfTies(problem, cost_eur, counted_eur);
   return key;
 }
 

@@ -26,6 +26,8 @@ struct TieShare {
   auto operator<=>(const TieShare&) const = default;
 };
 TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts);
+// What the packs of a design cost beyond what its choices count.
+TieShare SurplusOfTies(const Problem& problem, double cost_eur, double counted_eur);
 
 struct TieKey {
   TieShare share;

@@ -34,8 +34,8 @@ bool Before(int joined, const model::Manifold& a, const model::Manifold& b) {
   const double pieces_a = Pieces(joined, a), pieces_b = Pieces(joined, b);
   const double mass_a = pieces_a * a.basics.mass_kg, mass_b = pieces_b * b.basics.mass_kg;
   if (mass_a != mass_b) return mass_a < mass_b;
-  const double cost_a = pieces_a * a.basics.cost_eur.value_or(0.0);
-  const double cost_b = pieces_b * b.basics.cost_eur.value_or(0.0);
+  const double cost_a = CostInPacks(pieces_a, a.basics);
+  const double cost_b = CostInPacks(pieces_b, b.basics);
   return cost_a != cost_b ? cost_a < cost_b : a.basics.id < b.basics.id;
 }
 
@@ -136,10 +136,11 @@ const model::CheckValve* CheckValveFor(const Problem& problem) {
              row.sonic_conductance_m3_per_s_pa >= group.joint_conductance_m3_per_s_pa / group.count;
     });
   };
-  const auto before = [](const model::PartBasics& a, const model::PartBasics& b) {
+  const double feeds = Feeds(problem);
+  const auto before = [&](const model::PartBasics& a, const model::PartBasics& b) {
     if (a.cost_eur.has_value() != b.cost_eur.has_value()) return a.cost_eur.has_value();
     if (a.mass_kg != b.mass_kg) return a.mass_kg < b.mass_kg;
-    const double cost_a = a.cost_eur.value_or(0.0), cost_b = b.cost_eur.value_or(0.0);
+    const double cost_a = CostInPacks(feeds, a), cost_b = CostInPacks(feeds, b);
     return cost_a != cost_b ? cost_a < cost_b : a.id < b.id;
   };
   for (const model::CheckValve& row : problem.parts.check_valves)

@@ -71,14 +71,26 @@ BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& 
       claims_(claims),
       series_(problem, plan),
       stop_(stop),
+      share_packs_(HasPacks(problem)),
       strokes_(problem, plan),
       corners_(problem, plan, strokes_),
       sizer_(problem, stop) {}
+
+int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
+  return Widest(plan, corners, ranges, [&](int slot) { return SizeOf(ranges[slot]) > 1; });
+}
 
 bool BoxCheck::ComesAfter(const Ranges& ranges, const TieKey& last) {
   TieShare share;
   for (int s = 0; s < static_cast<int>(ranges.size()); ++s)
     share += ShareOfTies(problem_, corners_.Least(ranges, s).least);
+  if (share_packs_ && SlotToDivide(plan_, corners_, ranges) < 0) {
+    double counted_eur = 0.0;
+    for (int s = 0; s < static_cast<int>(ranges.size()); ++s)
+      counted_eur += corners_.Least(ranges, s).least.cost_eur;
+    const Totals totals = TotalsOf(problem_, AssemblyAt(problem_, plan_, ranges), {});
+    share += SurplusOfTies(problem_, totals.cost_known_eur, counted_eur);
+  }
   return share > last.share ||
          (share == last.share && EarliestIds(problem_, plan_, ranges) > last.ids);
 }
@@ -87,10 +99,6 @@ bool BoxCheck::ComesAfter(const Ranges& ranges, const TieKey& last) {
 bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) {
   if (!(objective >= claim.least)) return false;
   return objective > claim.tie_end || ComesAfter(single, claim.last);
-}
-
-int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
-  return Widest(plan, corners, ranges, [&](int slot) { return SizeOf(ranges[slot]) > 1; });
 }
 
 bool BoxCheck::IsSettled(const Claim& claim, const Ranges& single, Findings& findings) {

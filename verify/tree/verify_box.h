@@ -55,6 +55,7 @@ class BoxCheck {
   const Claims& claims_;
   SeriesOfPlan series_;
   const Stop stop_;
+  const bool share_packs_;
   KnownStrokes strokes_;
   Corners corners_;
   Sizer sizer_;

@@ -197,8 +197,15 @@ class Enumeration {
       return;
     }
     TieKey key{{}, ids};
-    for (std::size_t s = 0; s < single_.size(); ++s)
-      key.share += ShareOfTies(problem_, amounts_[s][single_[s].first]);
+    double counted_eur = 0.0;
+    for (std::size_t s = 0; s < single_.size(); ++s) {
+      const ItemAmounts& amounts = amounts_[s][single_[s].first];
+      counted_eur += amounts.cost_eur;
+      key.share += ShareOfTies(problem_, amounts);
+    }
+    if (HasPacks(problem_))
+      key.share +=
+          SurplusOfTies(problem_, TotalsOf(problem_, assembly, {}).cost_known_eur, counted_eur);
     const Claim& claim = series_->ClaimOn(claims_, single_);
     // The end of the ties has room for rounding of its own.
     const bool past_ties = objective * (1.0 + tolerance - kSumTolerance) > claim.tie_end;

@@ -65,6 +65,17 @@ double PriceOf(const std::vector<Choice>& parts) {
   return sum;
 }
 
+optimizer::PackRow ReadPack(Reader row, const Problem& problem,
+                            optimizer::Configuration configuration) {
+  const Choice choice = ReadChoice(row, problem, configuration);
+  return {choice.family,
+          choice.id,
+          choice.quantity,
+          row.Number("pack", kAnyNumber),
+          row.Number("packs", kAnyNumber),
+          row.Number("cost_eur", kAnyNumber)};
+}
+
 Design ReadDesign(const Element& element, int rank, const Problem& problem, Errors& errors) {
   Reader reader(element, errors);
   Design design;
@@ -74,6 +85,9 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   design.objective = reader.Number("objective", kAnyNumber);
   for (const Element& row : reader.List("parts", 1, kDesignRowsMax))
     design.parts.push_back(ReadRow(Reader(row, errors), problem, design.configuration));
+  if (reader.Has("packs"))  // answers of releases before do not state it
+    for (const Element& row : reader.List("packs", 0, kDesignRowsMax))
+      design.packs.push_back(ReadPack(Reader(row, errors), problem, design.configuration));
   AddOutside(problem, design);
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem, design.configuration);

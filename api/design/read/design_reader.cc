@@ -135,7 +135,7 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
                       "vacuum_stop_kpa_gauge", "vacuum_duty", "vacuum_reservoir_volume_ml"});
   settings.Finish();
   PassOver(reader, {"rank", "objective", "totals", "performance", "margins", "response", "kind",
-                    "variants", "data_quality", "robustness", "guarantee", "to_be_first"});
+                    "packs", "variants", "data_quality", "robustness", "guarantee", "to_be_first"});
   reader.Finish();
   return design;
 }

@@ -22,6 +22,7 @@
 #include "optimizer/choices/plant/ranges.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/packs.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/kind.h"
 #include "optimizer/problem/pump_feed.h"
@@ -59,6 +60,7 @@ struct Entries {
   std::vector<Item<Corner>> items;
   std::vector<Contender> contenders;
   MatingClasses classes;
+  std::vector<PackRange> packs;  // of the contenders, where choices share packs; or fewer
 
   void Reserve(std::size_t size) {
     items.reserve(size);
@@ -91,6 +93,7 @@ class Planter {
     plan_->configuration = layout.configuration;
     plan_->own_regulators = layout.own_regulators;
     plan_->equal_flow = LinesMeet();
+    plan_->shares_packs = AnySharedPacks(problem);
     may_stay_open_ = MayStayOpen();
     may_close_late_ = MayCloseLate();
     plan_->bottle_range = FindBottleRange(problem, layout.configuration);
@@ -120,8 +123,8 @@ class Planter {
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
     if (stopped()) return nullptr;
     plan_->combinations = total_;
-    plan_->unpriced = total_ - priced_;
-    plan_->dominated = priced_ - kept_;
+    plan_->pruned.unpriced = total_ - priced_;
+    plan_->pruned.dominated = priced_ - kept_;
     return std::move(plan_);
   }
 
@@ -179,6 +182,7 @@ class Planter {
                 BoxTree<Corner>& tree) {
     if (stopped()) return -1;
     std::vector<Contender>& contenders = entries.contenders;
+    if (plan_->shares_packs) entries.packs.resize(contenders.size());
     const bool kinds = problem_.list == ListOf::kKinds;
     if (kinds) SetSeries(family, entries);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
@@ -196,7 +200,8 @@ class Planter {
     }
     const int others =
         kinds ? OtherSeriesNeeded(problem_, family, plan_->own_regulators) : problem_.count;
-    Skyband skyband = KeepBest(contenders, others, plan_->tie, name_left_out_, stop_);
+    const std::vector<PackEnds> ends = EndsOf(entries);
+    Skyband skyband = KeepBest(contenders, others, plan_->tie, name_left_out_, stop_, ends);
     if (stopped()) return -1;
     std::vector<const Item<Corner>*> items;
     items.reserve(skyband.kept.size());
@@ -211,6 +216,23 @@ class Planter {
     priced_ *= static_cast<long long>(contenders.size());
     kept_ *= static_cast<long long>(items.size());
     return static_cast<int>(plan_->slots.size()) - 1;
+  }
+
+  // Empty where choices share no packs.
+  template <typename Corner>
+  std::vector<PackEnds> EndsOf(const Entries<Corner>& entries) const {
+    std::vector<PackEnds> ends;
+    for (std::size_t i = 0; i < entries.packs.size(); ++i) {
+      const auto at = [&](double beyond_eur) {
+        Amounts amounts = entries.items[i].corner.amounts;
+        amounts.cost_eur += beyond_eur;
+        return PackEnd{entries.contenders[i].objective + problem_.objective.cost_eur * beyond_eur,
+                       std::isfinite(problem_.cost_max_eur) ? amounts.cost_eur : 0.0,
+                       TieShareOf(problem_.objective, amounts)};
+      };
+      ends.push_back({at(entries.packs[i].more_eur), at(-entries.packs[i].less_eur)});
+    }
+    return ends;
   }
 
   // A part that has nothing to do with the kind is of the same series as all others.
@@ -235,7 +257,14 @@ class Planter {
   struct Count {
     double bought, counted;
     Amounts joint = {};
+    PackRange joint_packs = {};
   };
+  // Whether another choice of a design may have the same part.
+  bool Shares(Family family) const {
+    const bool of_group =
+        SpecOf(family).in_line || (family == Family::kRegulator && plan_->own_regulators);
+    return SharesPacks(problem_, of_group ? 0 : -1);
+  }
 
   // Each part of the family × 1…the most that may stand in parallel that has the price it needs.
   // `count(part, quantity)`; `rule(part, quantity, entry)` adds what the table does not say.
@@ -245,6 +274,7 @@ class Planter {
                               const Rule& rule) const {
     constexpr int kBetweenLooks = 256;
     const FamilySpec& spec = SpecOf(family);
+    const bool shared = Shares(family);
     const int most = QuantityMax(problem_, family);
     const int size = ChoicesIn(problem_, plan_->configuration, family);
     Entries<Corner> entries;
@@ -256,7 +286,7 @@ class Planter {
       for (int quantity = 1; quantity <= most; ++quantity) {
         const Entry<Corner> entry = entries.Add();
         const Count pieces = count(i, quantity);
-        entry.item.option = {i, quantity, pieces.bought * basics};
+        entry.item.option = {i, quantity, Counted(pieces.bought, basics, shared)};
         entry.item.option.amounts += pieces.joint;
         SetShare(problem_, entry.item.option.amounts, entry.item.corner);
         const PartNumbers numbers{problem_.parts, i, pieces.counted, useful_max_pa_};
@@ -264,6 +294,10 @@ class Planter {
         entry.contender.id = basics.id;
         entry.contender.mates = entries.classes.Of(numbers, spec.fields, mates);
         AddLosses(numbers, spec.fields, EqualFlowOf(family, i), entry.contender.losses);
+        if (plan_->shares_packs) {
+          entries.packs.push_back(shared ? RangeOf(pieces.bought, basics) : PackRange{});
+          entries.packs.back() += pieces.joint_packs;
+        }
         rule(i, quantity, entry);
       }
     }
@@ -276,8 +310,15 @@ class Planter {
         family, true,
         [&](int part, int quantity) {
           const double pieces = quantity;
-          return Count{pieces * FeedsOf(problem_, family), pieces,
-                       SourceJoint(problem_, family, part, quantity, plan_->own_regulators)};
+          Count all{pieces * FeedsOf(problem_, family), pieces};
+          for (const Joint& joint :
+               SourceJoints(problem_, family, part, quantity, plan_->own_regulators)) {
+            all.joint += JointAmounts(problem_, joint);
+            if (plan_->shares_packs)
+              all.joint_packs +=
+                  RangeOf(joint.quantity, BasicsOf(problem_.parts, joint.family, joint.part));
+          }
+          return all;
         },
         rule);
   }

@@ -60,9 +60,9 @@ double LargestTie(const Problem& problem, const Layout& layout) {
     double most = 0.0;
     for (const auto& part : family) {
       if constexpr (requires { part.per_metre; })
-        most = std::max(most, ObjectiveOf(problem.objective, pieces * part.per_metre));
+        most = std::max(most, ObjectiveOf(problem.objective, Bought(pieces, part.per_metre)));
       else
-        most = std::max(most, ObjectiveOf(problem.objective, pieces * part.basics));
+        most = std::max(most, ObjectiveOf(problem.objective, Bought(pieces, part.basics)));
     }
     sum += most;
   };

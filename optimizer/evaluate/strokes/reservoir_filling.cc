@@ -117,6 +117,13 @@ struct Balance {
                             (line(g).count * model::ContentSlope(*line(g).chamber, y[g]));
   }
 
+  // The reservoir's slope if an open chamber rose with it, which its flow near rest hardly tells.
+  double SlopeWith(std::size_t g, std::span<const double> y, double reservoir_pa) const {
+    const double drawn = Drawn(y, reservoir_pa) - Drawn(g, reservoir_pa, y[g]);
+    const double room_m3 = line(g).count * model::ContentSlope(*line(g).chamber, y[g]);
+    return ReservoirSlope(Delivered(reservoir_pa), drawn, Room(y) + room_m3);
+  }
+
   // How far a chamber that rises with the reservoir is behind: its flow grows with the root of
   // that.
   double Behind(std::size_t g, double reservoir_pa, double slope) const {
@@ -220,15 +227,14 @@ class ReservoirFilling {
   // A small reservoir comes closer to what it fills faster than that to it.
   bool AnyHeldDown() const {
     const double reservoir_pa = ReservoirAt(1.0);
+    const double volume_m3 = Slope() < 0.0 ? rig_.in.volume_falling_m3 : rig_.in.volume_rising_m3;
     double chamber_per_s = 0.0, reservoir_per_s = 0.0;
     for (std::size_t g = 0; g < rig_.size(); ++g) {
       if (rig_.valves[g] != Valve::kOpen) continue;
       const double chamber_pa = stepper_.state()[g], behind_pa = reservoir_pa - chamber_pa;
       chamber_per_s = std::max(chamber_per_s, ApproachRate(stepper_.derivative()[g], behind_pa));
-      reservoir_per_s +=
-          ApproachRate(rig_.content_per_volume * rig_.Drawn(g, reservoir_pa, chamber_pa) /
-                           rig_.in.volume_falling_m3,
-                       behind_pa);
+      reservoir_per_s += ApproachRate(
+          rig_.content_per_volume * rig_.Drawn(g, reservoir_pa, chamber_pa) / volume_m3, behind_pa);
     }
     return IsHeldDown(stepper_.step(), chamber_per_s + reservoir_per_s);
   }
@@ -346,24 +352,25 @@ class ReservoirFilling {
   // falls again.
   bool Follow() {
     const double reservoir_pa = ReservoirAt(1.0);
-    const double slope = Slope();
     const bool follows = rig_.AnyFollows();
-    if (slope < 0.0) {
+    if (Slope() < 0.0) {
       if (follows) Release();
       return follows;
     }
     bool changed = false;
     for (std::size_t g = 0; g < rig_.size(); ++g) {
-      if (rig_.valves[g] != Valve::kOpen) continue;
       const double behind_pa = reservoir_pa - stepper_.state()[g];
+      if (rig_.valves[g] != Valve::kOpen || behind_pa > kNearlyEqual * reservoir_pa) continue;
+      const double slope = rig_.full ? 0.0 : rig_.SlopeWith(g, stepper_.state(), reservoir_pa);
       const double settled_pa = rig_.Behind(g, reservoir_pa, slope);
-      const double off_pa =
-          std::max(kEqual * reservoir_pa, std::min(0.1 * settled_pa, kSettled * reservoir_pa));
-      if (std::max(behind_pa, settled_pa) <= kNearlyEqual * reservoir_pa &&
-          std::abs(behind_pa - settled_pa) <= off_pa) {
-        rig_.valves[g] = Valve::kFollows;
-        changed = true;
-      }
+      // A step may have taken it past the reservoir by what it may be off.
+      const double near_pa = behind_pa < 0.0 ? model::kNever : 0.1 * settled_pa;
+      const double off_pa = std::clamp(near_pa, kEqual * reservoir_pa, kSettled * reservoir_pa);
+      if (slope < 0.0 || settled_pa > kNearlyEqual * reservoir_pa ||
+          std::abs(behind_pa - settled_pa) > off_pa)
+        continue;
+      rig_.valves[g] = Valve::kFollows;
+      changed = true;
     }
     return changed;
   }

@@ -74,6 +74,19 @@ std::string SettingsText(const Json& design) {
   return text + "\n";
 }
 
+std::string PacksText(const Json& design) {
+  std::string text;
+  for (const Json& row : design.value("packs", Json::array())) {
+    const double packs = row.at("packs").get<double>();
+    const char* unit = row.at("unit") == "m" ? " m" : "";
+    text += fmt::format("  Bought: {} {} of {}{} {}, {} €, {}{} left over\n",
+                        Short(row.at("packs")), packs == 1.0 ? "pack" : "packs",
+                        Short(row.at("pack")), unit, row.at("id").get<std::string>(),
+                        Short(row.at("cost_eur")), Short(row.at("left_over")), unit);
+  }
+  return text;
+}
+
 std::string TotalsText(const Json& design) {
   const auto& totals = design.at("totals");
   const auto& performance = design.at("performance");
@@ -135,8 +148,9 @@ std::string QualityText(const Json& design) {
 
 std::string Details(const Json& design) {
   return fmt::format("Design {} in full\n", Grouped(design.at("rank"))) + PartsTable(design) +
-         "\n" + SettingsText(design) + TotalsText(design) + "\n" + MarginsTable(design) + "\n" +
-         VariantsText(design) + QualityText(design) + OrderText(design);
+         "\n" + SettingsText(design) + TotalsText(design) + PacksText(design) + "\n" +
+         MarginsTable(design) + "\n" + VariantsText(design) + QualityText(design) +
+         OrderText(design);
 }
 
 // One entry of a conflict: what is required, and what was found to be enough.

@@ -46,7 +46,7 @@ TEST(OutlineTest, CountsAreThoseOfThePlan) {
       const optimizer::Outline outline = optimizer::MakeOutline(problem, {configuration});
       const auto plan = optimizer::MakePlan(problem, {configuration});
       EXPECT_EQ(outline.combinations, plan->combinations);
-      EXPECT_EQ(outline.combinations - outline.priced, plan->unpriced);
+      EXPECT_EQ(outline.combinations - outline.priced, plan->pruned.unpriced);
     }
 }
 

@@ -112,14 +112,13 @@ TEST(AtOnceTest, EvacuatedAsSimulated) {
   EXPECT_LT(count.unable, count.asked / 5);
 }
 
-// A reservoir that is small beside the chambers goes with them long before they are full: neither
-// that nor a chamber which rises with it beside another asks for a simulation.
-TEST(AtOnceTest, SmallReservoirs) {
-  Count count;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+// Chambers that are large beside a reservoir, with time for the pumps to fill them: rigs, and their
+// windows of the source pressure.
+void ForEachSlow(std::uint64_t seeds, const auto& visit) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Problem problem = Drawn(3 * seed + 1, false);
-    problem.frequency_hz *= 0.005;  // with time for the pumps to fill the chambers
+    problem.frequency_hz *= 0.005;
     for (optimizer::ActuatorGroup& group : problem.groups) {
       group.chamber.rest_volume_m3 *= 4.0;
       group.rise_time_max_s = optimizer::kUnlimited;
@@ -127,14 +126,49 @@ TEST(AtOnceTest, SmallReservoirs) {
     int looked = 0;
     ForEachCombination(problem, [&](const Candidate& candidate) {
       const optimizer::Window window = optimizer::SourceWindow(problem, candidate);
-      if (window.empty() || ++looked > 6) return;
-      const double volume_m3 = 1e-5;
-      const double stop_pa = window.low_pa + 0.9 * (window.high_pa - window.low_pa);
-      ExpectAsSimulated(problem, candidate, {stop_pa, volume_m3, volume_m3}, count);
+      if (!window.empty() && ++looked <= 6) visit(problem, candidate, window);
     });
   }
+}
+
+// A reservoir that is small beside the chambers goes with them long before they are full: neither
+// that nor a chamber which rises with it beside another asks for a simulation.
+TEST(AtOnceTest, SmallReservoirs) {
+  Count count;
+  ForEachSlow(
+      10, [&](const Problem& problem, const Candidate& candidate, const optimizer::Window& window) {
+        const double volume_m3 = 1e-5;
+        const double stop_pa = window.low_pa + 0.9 * (window.high_pa - window.low_pa);
+        ExpectAsSimulated(problem, candidate, {stop_pa, volume_m3, volume_m3}, count);
+      });
   EXPECT_GT(count.compared, 10);
   EXPECT_EQ(count.unable, 0);
+}
+
+// The bounds of an interval of volumes: one that falls as the largest does, and rises as the least.
+// What is small while it rises makes steps small then, however large it is while it falls; and
+// chambers that are nearly at rest with it hardly tell by their flow how it goes on.
+TEST(AtOnceTest, IntervalsOfVolumes) {
+  int asked = 0, works = 0;
+  ForEachSlow(
+      20, [&](const Problem& problem, const Candidate& candidate, const optimizer::Window& window) {
+        for (const double share : {0.02, 0.9}) {
+          const double stop_pa = window.low_pa + share * (window.high_pa - window.low_pa);
+          const std::optional<Strokes> of_interval =
+              optimizer::StrokesAtOnce(problem, candidate, {stop_pa, 0.02, 1e-5});
+          const std::optional<Strokes> of_least =
+              optimizer::StrokesAtOnce(problem, candidate, {stop_pa, 1e-5, 1e-5});
+          ASSERT_TRUE(of_interval && of_least);
+          ++asked;
+          if (!of_interval->works || !of_least->works) continue;
+          ++works;
+          // With the least alone no stroke is sooner over.
+          for (std::size_t g = 0; g < problem.groups.size(); ++g)
+            EXPECT_LE(of_interval->inflate_s[g], of_least->inflate_s[g] * (1.0 + 1e-4));
+        }
+      });
+  EXPECT_GT(asked, 40);
+  EXPECT_GT(works, 10);
 }
 
 // A group in two halves is the group: one stroke of all chambers, integrated over their pressure.

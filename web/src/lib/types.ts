@@ -116,6 +116,18 @@ export interface PartRow {
   cost_eur: number | null;
 }
 
+// A part that is sold in packs: what all its rows need, and what is bought.
+export interface PackRow {
+  family: string;
+  id: string;
+  unit: 'm' | 'piece';
+  quantity: number;
+  pack: number;
+  packs: number;
+  left_over: number;
+  cost_eur: number;
+}
+
 export interface Margin {
   requirement: string;
   required: number;
@@ -135,6 +147,7 @@ export interface Design {
   configuration: Configuration;
   objective: number;
   parts: PartRow[];
+  packs?: PackRow[]; // none in answers of releases before
   settings: {
     source_pressure_kpa_gauge: number;
     valve_duty: number | null;

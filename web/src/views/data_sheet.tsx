@@ -15,7 +15,7 @@ import { noteText, proofInWords } from '../lib/words';
 import { Notice, Panel } from '../ui/controls';
 import { Scroll } from '../ui/scroll';
 import { number, Table } from '../ui/table';
-import { Estimates, Facts, MarginsPanel } from './design_panels';
+import { Estimates, Facts, MarginsPanel, Packs } from './design_panels';
 import { Schematic } from './schematic';
 import { Strokes } from './strokes';
 
@@ -178,6 +178,15 @@ function Links({ part }: { part: Part | undefined }) {
 }
 
 function Bill({ design, parts }: { design: Design; parts: Parts | null }) {
+  return (
+    <>
+      <BillTable design={design} parts={parts} />
+      <Packs design={design} />
+    </>
+  );
+}
+
+function BillTable({ design, parts }: { design: Design; parts: Parts | null }) {
   return (
     <Table
       label="Bill of materials"

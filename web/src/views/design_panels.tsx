@@ -109,7 +109,28 @@ export function PartsPanel({ design }: { design: Design }) {
           </tr>
         ))}
       </Table>
+      <Packs design={design} />
     </Panel>
+  );
+}
+
+// What is bought of parts that are sold in packs.
+export function Packs({ design }: { design: Design }) {
+  return (
+    <>
+      {(design.packs ?? []).map((row) => {
+        const unit = row.unit === 'm' ? ' m' : '';
+        const part = design.parts.find(({ id }) => id === row.id);
+        return (
+          <p key={row.id} class="muted">
+            Bought: {row.packs} {row.packs === 1 ? 'pack' : 'packs'} of {significant(row.pack)}
+            {unit}, {part ? `${part.manufacturer} ${part.part_number}` : row.id}, for{' '}
+            {significant(row.cost_eur)} €; {significant(row.left_over)}
+            {unit} left over.
+          </p>
+        );
+      })}
+    </>
   );
 }
 
