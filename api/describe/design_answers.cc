@@ -358,10 +358,8 @@ Json FormOfKind(std::string_view kind) {
   const bool maybe = kind.ends_with('?');
   if (maybe) kind.remove_suffix(1);
   if (kind.starts_with("l@")) return {{"type", "array"}, {"items", ReferenceTo(kind.substr(2))}};
-  if (kind.starts_with('@')) {
-    if (!maybe) return ReferenceTo(kind.substr(1));
-    return {{"anyOf", {ReferenceTo(kind.substr(1)), {{"type", "null"}}}}};
-  }
+  if (kind.starts_with('@') && !maybe) return ReferenceTo(kind.substr(1));
+  if (kind.starts_with('@')) return {{"anyOf", {ReferenceTo(kind.substr(1)), {{"type", "null"}}}}};
   const char* name = kind == "n"   ? "number"
                      : kind == "s" ? "string"
                      : kind == "b" ? "boolean"

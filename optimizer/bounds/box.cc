@@ -301,8 +301,8 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   choose(plan_.compressor_slot, candidate.compressor);
   choose(plan_.reservoir_slot, candidate.reservoir);
   choose(plan_.battery_slot, candidate.battery);
-  choose(plan_.rail.pump_slot, candidate.rail_pump);
-  choose(plan_.rail.reservoir_slot, candidate.rail_reservoir);
+  choose(plan_.rail.pump_slot, candidate.rail.pump);
+  choose(plan_.rail.reservoir_slot, candidate.rail.reservoir);
   candidate.pack_surplus_eur = PackSurplus(problem_, plan_, box);
   return candidate;
 }

@@ -33,13 +33,19 @@ struct Workbench {
   bool stopped() const { return stop && stop(); }
 };
 
+// Of the vacuum beside the source (pumped_rail.h), and the weakest pressure that does; 0: not found
+// yet.
+struct RailChoice {
+  Option pump, reservoir;
+  double weakest_pa = 0.0;
+};
+
 struct Candidate {
   Configuration configuration = Configuration::kMains;
   std::vector<const Line*> lines;  // one per group
   Option regulator, bottle, compressor, battery, reservoir;
-  std::vector<Option> own_regulators = {};     // one a group, in place of `regulator`; or empty
-  Option rail_pump = {}, rail_reservoir = {};  // of the vacuum beside the source (pumped_rail.h)
-  double rail_pa = 0.0;                        // the weakest that does; 0: not found yet
+  std::vector<Option> own_regulators = {};  // one a group, in place of `regulator`; or empty
+  RailChoice rail = {};
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;

@@ -165,11 +165,10 @@ bool AddRail(const Problem& problem, const Candidate& candidate, double given_pa
   if (!source.curve) return true;
   const model::Gas gas = GasOf(candidate.configuration);
   const auto found_pa = given_pa > 0.0 ? std::optional(given_pa)
-                        : candidate.rail_pa > 0.0
-                            ? std::optional(candidate.rail_pa)
+                        : candidate.rail.weakest_pa > 0.0
+                            ? std::optional(candidate.rail.weakest_pa)
                             : WeakestRailPa(problem, source, candidate.lines, gas);
   if (!found_pa) return false;
-  evaluation.rail_pa = *found_pa;
   evaluation.rail = LoadOf(problem, source, RailAir(problem, candidate.lines), *found_pa);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     GroupPerformanceOf<T>& group = evaluation.groups[g];
@@ -210,7 +209,7 @@ double BestFillOf(const Problem& problem, const Candidate& candidate,
 template <class T>
 OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
                            OperatingPointOf<T> point, const EvaluationOf<T>& evaluation) {
-  point.rail_pa = evaluation.rail_pa;
+  point.rail_pa = evaluation.rail.weakest_pa;
   if (TankVolume(problem, candidate) == 0.0) return point;
   const double source_pa = model::ValueOf(point.source_pa);
   if (IsOpenTank(candidate))

@@ -29,8 +29,7 @@ struct EvaluationOf {
   T compressor_duty = T(0.0);
   T frequency_sustained_hz = T(0.0);
   bool from_full = false;  // each stroke finds the reservoir full
-  double rail_pa = 0.0;    // of the vacuum beside the source, where it has pumps
-  RailLoad rail = {};
+  RailLoad rail = {};      // of the vacuum beside the source, where it has pumps
 };
 using Evaluation = EvaluationOf<double>;
 

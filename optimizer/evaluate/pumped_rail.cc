@@ -92,10 +92,10 @@ double HighestRailPa(const Problem& problem) {
 }
 
 RailSource RailSourceOf(const Problem& problem, const Candidate& candidate) {
-  if (candidate.rail_pump.index == kNone) return {};
-  const model::Compressor& pump = problem.parts.vacuum_pumps[candidate.rail_pump.index];
-  RailSource source{&pump.curve, candidate.rail_pump.quantity, pump.duty_max};
-  const Option& reservoir = candidate.rail_reservoir;
+  if (candidate.rail.pump.index == kNone) return {};
+  const model::Compressor& pump = problem.parts.vacuum_pumps[candidate.rail.pump.index];
+  RailSource source{&pump.curve, candidate.rail.pump.quantity, pump.duty_max};
+  const Option& reservoir = candidate.rail.reservoir;
   if (reservoir.index != kNone)
     source.volume_m3 = reservoir.quantity * problem.parts.reservoirs[reservoir.index].volume_m3;
   return source;
@@ -113,6 +113,7 @@ double RailAir(const Problem& problem, std::span<const Line* const> lines) {
 RailLoad LoadOf(const Problem& problem, const RailSource& source, double air_m3, double rail_pa) {
   const double ambient_pa = problem.ambient.pressure_pa;
   RailLoad load;
+  load.weakest_pa = rail_pa;
   load.stop_pa = rail_pa - RisePa(problem, source, air_m3);
   const double low_pa = 2.0 * ambient_pa - rail_pa, stop_pa = 2.0 * ambient_pa - load.stop_pa;
   if (stop_pa > model::HighestPressure(*source.curve)) return load;

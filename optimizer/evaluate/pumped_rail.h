@@ -47,7 +47,7 @@ double RailAir(const Problem& problem, std::span<const Line* const> lines);
 // What pumps bear that keep the rail at a weakest pressure; +∞ of all where they do not come to
 // where they would stop.
 struct RailLoad {
-  double stop_pa = 0.0;
+  double weakest_pa = 0.0, stop_pa = 0.0;
   double duty = kUnlimited;
   double energy_per_cycle_j = kUnlimited, first_fill_j = kUnlimited;
   double current_a = kUnlimited;

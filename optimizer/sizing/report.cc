@@ -281,7 +281,7 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
   }
   if (RefillsTank(candidate)) evaluation = EvaluateFilled(problem, candidate, point);
   if (!evaluation.works) return std::nullopt;  // told to stop meanwhile
-  point.rail_pa = evaluation.rail_pa;
+  point.rail_pa = evaluation.rail.weakest_pa;
   Design design = Describe(problem, candidate, point, evaluation);
   design.response = TraceCycle(problem, candidate, point);
   if (design.response.t_s.empty() && candidate.stopped()) return std::nullopt;
@@ -313,8 +313,8 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
     design.settings.pump_stop_pa =
         RefillOf(problem, candidate, filled, evaluation.air_per_cycle_m3).stop_pa;
   if (const RailSource rail = RailSourceOf(problem, candidate); rail.curve)
-    design.settings.rail = {evaluation.rail_pa, evaluation.rail.stop_pa, evaluation.rail.duty,
-                            rail.volume_m3};
+    design.settings.rail = {evaluation.rail.weakest_pa, evaluation.rail.stop_pa,
+                            evaluation.rail.duty, rail.volume_m3};
   for (std::size_t g = 0; g < evaluation.groups.size(); ++g)
     design.settings.valve_duty.push_back(problem.groups[g].gait.strokes_per_period *
                                          evaluation.groups[g].inflate_time_s *

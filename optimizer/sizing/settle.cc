@@ -150,7 +150,7 @@ OperatingPoint SettleRail(const Problem& problem, const Candidate& candidate,
   if (!deepest_pa || !weakest.works) return point;
   for (double share = kHalf; share > kLeast; share *= kHalf) {
     OperatingPoint deeper = point;
-    deeper.rail_pa = weakest.rail_pa + share * (*deepest_pa - weakest.rail_pa);
+    deeper.rail_pa = weakest.rail.weakest_pa + share * (*deepest_pa - weakest.rail.weakest_pa);
     if (SmallestMargin(problem, candidate, deeper, Evaluate(problem, candidate, deeper)) >= 0.0)
       return deeper;
   }

@@ -211,14 +211,14 @@ Leaf SizeGroups(const Problem& problem, const Candidate& candidate, double tank_
 
 // The same on the weakest vacuum that does, where pumps keep one beside the source.
 bool LacksRail(const Candidate& candidate) {
-  return candidate.rail_pump.index != kNone && candidate.rail_pa == 0.0;
+  return candidate.rail.pump.index != kNone && candidate.rail.weakest_pa == 0.0;
 }
 template <typename Size>
 Leaf OnItsRail(const Problem& problem, const Candidate& candidate, const Size& size) {
   Candidate on_rail = candidate;
   const std::optional<double> rail_pa = WeakestRailPa(
       problem, RailSourceOf(problem, candidate), candidate.lines, GasOf(candidate.configuration));
-  on_rail.rail_pa = rail_pa.value_or(0.0);
+  on_rail.rail.weakest_pa = rail_pa.value_or(0.0);
   if (rail_pa) return size(on_rail);
   Leaf leaf;
   leaf.status = LeafStatus::kInfeasible;

@@ -61,8 +61,12 @@ void SetNumbers(const PartNumbers& numbers, CompressorCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
 }
 
-int Planter::PlantPumps(Family family, double highest_pa, BoxTree<CompressorCorner>& tree) {
+int Planter::PlantPumps(Family family, BoxTree<CompressorCorner>& tree) {
   const std::vector<model::Compressor>& parts = PumpsIn(problem_.parts, family);
+  // Of the vacuum beside a source the image of no pressure at all.
+  const double highest_pa = family == PumpFamily(plan_->configuration)
+                                ? plan_->highest_pump_pa
+                                : 2.0 * problem_.ambient.pressure_pa;
   const int most = problem_.limits.compressors;
   for (const model::Compressor& part : parts) voltages_.Bit(part.curve.voltage_v);
   CoarsePump alone;                                // one of the part that is planted
@@ -86,23 +90,6 @@ int Planter::PlantPumps(Family family, double highest_pa, BoxTree<CompressorCorn
   };
   return PlantSlot(family, -1, ChoicesOf(family), MakeSourceEntries<CompressorCorner>(family, rule),
                    tree);
-}
-
-int Planter::PlantCompressors() {
-  return PlantPumps(PumpFamily(plan_->configuration), plan_->highest_pump_pa, plan_->compressors);
-}
-
-void Planter::PlantRail() {
-  double highest_pa = 1.01 * problem_.ambient.pressure_pa;
-  for (const model::Compressor& pump : problem_.parts.vacuum_pumps)
-    highest_pa = std::max(highest_pa, model::HighestPressure(pump.curve));
-  plan_->rail.pump_slot = PlantPumps(Family::kVacuumPump, highest_pa, plan_->rail.pumps);
-  constexpr Family kReservoirs = Family::kVacuumReservoir;
-  plan_->rail.reservoir_slot =
-      PlantSlot(kReservoirs, -1, ChoicesOf(kReservoirs),
-                MakeSourceEntries<ReservoirCorner>(kReservoirs,
-                                                   [](int, int, const Entry<ReservoirCorner>&) {}),
-                plan_->rail.reservoirs);
 }
 
 }  // namespace plenum::optimizer

@@ -110,15 +110,21 @@ class Planter {
     for (int g = 0; g < static_cast<int>(groups) && !stopped(); ++g) PlantGroup(g);
     if (stopped()) return nullptr;
     if (IsPumped(plan_->configuration)) {
-      plan_->compressor_slot = PlantCompressors();
-      if (KeepsReservoir(plan_->configuration)) plan_->reservoir_slot = PlantReservoirs();
+      plan_->compressor_slot = PlantPumps(PumpFamily(plan_->configuration), plan_->compressors);
+      if (KeepsReservoir(plan_->configuration))
+        plan_->reservoir_slot = PlantReservoirs(Family::kReservoir, plan_->reservoirs);
     } else {
       PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
       if (HasTank(plan_->configuration)) plan_->bottle_slot = PlantTanks();
-      if (HasPump(plan_->configuration)) plan_->compressor_slot = PlantCompressors();
-      if (PumpsRail(problem_)) PlantRail();
+      if (HasPump(plan_->configuration))
+        plan_->compressor_slot = PlantPumps(PumpFamily(plan_->configuration), plan_->compressors);
+      if (PumpsRail(problem_)) {
+        plan_->rail.pump_slot = PlantPumps(Family::kVacuumPump, plan_->rail.pumps);
+        plan_->rail.reservoir_slot =
+            PlantReservoirs(Family::kVacuumReservoir, plan_->rail.reservoirs);
+      }
     }
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
     if (stopped()) return nullptr;
@@ -344,11 +350,9 @@ class Planter {
   int PlantCylinders();
   int PlantCo2();
   int PlantTanks();
-  int PlantCompressors();
-  int PlantReservoirs();
+  int PlantPumps(Family family, BoxTree<CompressorCorner>& tree);
+  int PlantReservoirs(Family family, BoxTree<ReservoirCorner>& tree);
   int PlantBatteries();
-  void PlantRail();  // vacuum pumps beside the source, and their reservoirs
-  int PlantPumps(Family family, double highest_pa, BoxTree<CompressorCorner>& tree);
 
   const Problem& problem_;
   bool name_left_out_;

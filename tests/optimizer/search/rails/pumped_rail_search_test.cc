@@ -8,6 +8,7 @@
 #include "optimizer/evaluate/pumped_rail.h"
 #include "optimizer/problem/family_specs.h"
 #include "tests/support/enumerated_search.h"
+#include "tests/support/packs/packs_by_hand.h"
 #include "tests/support/rail_problems.h"
 
 namespace plenum::test {
@@ -120,6 +121,25 @@ TEST(PumpedRailSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
   EXPECT_GT(tally.feasible, Draws(5));
 }
 
+// Cost counts whole packs of pumps and reservoirs as of all else.
+TEST(PumpedRailSearch, PumpsAndReservoirsInPacks) {
+  Compared tally;
+  int packs = 0;
+  for (int seed = 1; seed <= Draws(24); ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(1200 + seed);
+    problem.objective = {seed % 2 == 0 ? 1.0 : 0.0, 0.0, seed % 2 == 0 ? 0.02 : 1.0, 0.0};
+    SellInPacks(static_cast<std::uint64_t>(seed), false, problem);
+    const bool found = ExpectAsEnumerated(problem, [&](const Design& design, const Enumerated&) {
+      for (const optimizer::PackRow& row : design.packs)
+        packs += row.family == Family::kVacuumPump || row.family == Family::kVacuumReservoir;
+    });
+    ++(found ? tally.feasible : tally.infeasible);
+  }
+  EXPECT_GT(tally.feasible, Draws(5));
+  EXPECT_GT(packs, Draws(10));
+}
+
 TEST(PumpedRailSearch, ListsOfKinds) {
   Compared tally;
   for (int seed = 1; seed <= Draws(12); ++seed) {
@@ -152,7 +172,7 @@ TEST(PumpedRailSearch, EachGroupBehindItsOwnRegulator) {
 // A deeper vacuum allowed, more time, pumps that may run longer, larger packs, more reservoirs.
 TEST(PumpedRailSearch, LooserIsNeverWorse) {
   int compared = 0;
-  for (int seed = 1; seed <= Draws(20); ++seed) {
+  for (int seed = 1; seed <= Draws(48); ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(700 + seed, 1 + seed % 2, false);
     problem.count = 1;
