@@ -44,18 +44,19 @@ test('a design with both rails is drawn and can be tried', async () => {
   const listed = design.performance.groups[0].fall_time_s;
   const { fall_time_s } = response.performance.groups[0];
   assert.ok(Math.abs(fall_time_s - listed) < 1e-3 * listed, `${fall_time_s}`);
-  const schematic = page.getByRole('img', { name: /^Schematic/ });
-  await schematic.waitFor();
-  const drawn = await schematic.textContent();
-  assert.ok(drawn.replaceAll(' ', '').includes(pump.part_number.replaceAll(' ', '')), drawn);
-  assert.ok(drawn.includes('at the weakest'), drawn);
-  if (process.env.SHOT_DESIGN)
-    await page.screenshot({ path: process.env.SHOT_DESIGN, fullPage: true });
-  const slider = page.getByLabel('Source pressure', { exact: true });
-  await slider.waitFor();
+  const slider = page.getByRole('slider', { name: 'Source pressure' });
+  await slider.and(page.locator(':enabled')).waitFor(); // once its range is known
   const tried = page.waitForResponse((reply) => reply.url().endsWith('/v1/evaluations'));
   await slider.focus();
-  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowLeft');
   assert.equal((await (await tried).json()).works, true);
+  await page.getByRole('link', { name: 'Data sheet' }).click();
+  const schematic = page.getByRole('img', { name: /^Schematic/ });
+  await schematic.waitFor();
+  const drawn = (await schematic.textContent()).replaceAll(' ', ''); // its lines are broken
+  for (const words of [pump.part_number, 'at the weakest', 'pump stops at'])
+    assert.ok(drawn.includes(words.replaceAll(' ', '')), drawn);
+  if (process.env.SHOT_DESIGN)
+    await page.screenshot({ path: process.env.SHOT_DESIGN, fullPage: true });
   await close();
 });
