@@ -98,7 +98,7 @@ export function Schematic({
   const groups = requirements.actuators;
   const { configuration, settings } = design;
   const below = groups.flatMap((group, i) => (goesBelow(group) ? [i] : []));
-  const railHeight = below.length > 0 ? 110 : 0;
+  const railHeight = below.length > 0 ? 150 : 0;
   const above = Math.max(260, groups.length * groupHeight + 60);
   const height = above + railHeight;
   const middle = above / 2 - 30;
