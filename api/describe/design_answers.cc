@@ -301,7 +301,10 @@ constexpr AnswerField kDesign[] = {{"configuration", "s"},
                                    {"settings/reservoir_volume_ml", "n?"},
                                    {"settings/source_pressure_kpa_gauge", "n?"},
                                    {"settings/tank_fill_kpa_gauge", "n?"},
+                                   {"settings/vacuum_duty", "n?"},
                                    {"settings/vacuum_kpa_gauge", "n?"},
+                                   {"settings/vacuum_reservoir_volume_ml", "n?"},
+                                   {"settings/vacuum_stop_kpa_gauge", "n?"},
                                    {"settings/valve_duty", "n?"},
                                    {"settings/valve_duty_groups", "l"},
                                    {"settings/valve_duty_groups/*", "n"},
@@ -355,10 +358,8 @@ Json FormOfKind(std::string_view kind) {
   const bool maybe = kind.ends_with('?');
   if (maybe) kind.remove_suffix(1);
   if (kind.starts_with("l@")) return {{"type", "array"}, {"items", ReferenceTo(kind.substr(2))}};
-  if (kind.starts_with('@')) {
-    if (!maybe) return ReferenceTo(kind.substr(1));
-    return {{"anyOf", {ReferenceTo(kind.substr(1)), {{"type", "null"}}}}};
-  }
+  if (kind.starts_with('@') && !maybe) return ReferenceTo(kind.substr(1));
+  if (kind.starts_with('@')) return {{"anyOf", {ReferenceTo(kind.substr(1)), {{"type", "null"}}}}};
   const char* name = kind == "n"   ? "number"
                      : kind == "s" ? "string"
                      : kind == "b" ? "boolean"

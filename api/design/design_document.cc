@@ -79,7 +79,15 @@ Json RenderSettings(const optimizer::Settings& settings, const optimizer::Proble
   if (settings.pump_stop_pa)
     rendered["pump_stop_kpa_gauge"] = Number(optimizer::KpaGauge(problem, *settings.pump_stop_pa));
   if (optimizer::Evacuated(problem)) rendered["vacuum_kpa_gauge"] = source;
-  if (HasVacuumRail(problem)) rendered["vacuum_kpa_gauge"] = Number(VacuumRailKpa(problem));
+  if (settings.rail) {
+    const optimizer::RailSettings& rail = *settings.rail;
+    rendered["vacuum_kpa_gauge"] = Number(optimizer::KpaGauge(problem, rail.pressure_pa));
+    rendered["vacuum_stop_kpa_gauge"] = Number(optimizer::KpaGauge(problem, rail.stop_pa));
+    rendered["vacuum_duty"] = Number(rail.duty);
+    rendered["vacuum_reservoir_volume_ml"] = Number(MlFromM3(rail.volume_m3));
+  } else if (HasVacuumRail(problem)) {
+    rendered["vacuum_kpa_gauge"] = Number(VacuumRailKpa(problem));
+  }
   if (!settings.group_pressure_pa.empty())
     rendered["group_pressure_kpa_gauge"] = Numbers(
         settings.group_pressure_pa, [&](double pa) { return optimizer::KpaGauge(problem, pa); });

@@ -29,14 +29,18 @@ NeededPressure HighestNeeded(const GroupPressures& groups) {
 
 // True also while one of the two is not chosen. Ejectors need air, and no pack.
 bool Bounds::PackDrivesPump(const Box& box) const {
-  if (!Node(box, plan_.compressor_slot).single()) return true;
-  const Option& pumps = OptionOf(box, plan_.compressor_slot);
-  if (!AirSuffices(problem_, PumpsOf(problem_, plan_.configuration)[pumps.index], pumps.quantity))
-    return false;
-  if (!Node(box, plan_.battery_slot).single()) return true;
-  return model::VoltageMatches(
-      problem_.parts.batteries[OptionOf(box, plan_.battery_slot).index].nominal_voltage_v,
-      PumpsOf(problem_, plan_.configuration)[pumps.index].curve.voltage_v);
+  const auto drives = [&](const std::vector<model::Compressor>& pumps, int slot) {
+    if (slot < 0 || !Node(box, slot).single()) return true;
+    const Option& chosen = OptionOf(box, slot);
+    const model::Compressor& pump = pumps[chosen.index];
+    if (!AirSuffices(problem_, pump, chosen.quantity)) return false;
+    if (plan_.battery_slot < 0 || !Node(box, plan_.battery_slot).single()) return true;
+    return model::VoltageMatches(
+        problem_.parts.batteries[OptionOf(box, plan_.battery_slot).index].nominal_voltage_v,
+        pump.curve.voltage_v);
+  };
+  return drives(PumpsOf(problem_, plan_.configuration), plan_.compressor_slot) &&
+         drives(problem_.parts.vacuum_pumps, plan_.rail.pump_slot);
 }
 
 // Window, strokes and needs of pumps without a reservoir. The lower end of the window is what is

@@ -71,6 +71,41 @@ bool LastAreInTime(const Problem& problem, const Plan& plan, const Box& box, con
   return true;
 }
 
+// What the pumps of a vacuum beside the source take at least of the candidate's lines, energy over
+// the mission; none where they keep none at which falls are in time. Nothing as long as they are
+// not chosen.
+struct RailNeed {
+  double energy_j = 0.0, current_a = 0.0;
+};
+std::optional<RailNeed> LeastOfRail(const Problem& problem, const Candidate& candidate) {
+  constexpr double kRoom = 1e-7;  // more than settings are found to
+  const RailSource source = RailSourceOf(problem, candidate);
+  if (!source.curve) return RailNeed{};
+  const std::optional<double> rail_pa =
+      WeakestRailPa(problem, source, candidate.lines, GasOf(candidate.configuration), kRoom);
+  if (!rail_pa) return std::nullopt;
+  const double air_m3 = RailAir(problem, candidate.lines) / kRounding;
+  const RailLoad load = LoadOf(problem, source, air_m3, *rail_pa);
+  return RailNeed{(load.first_fill_j + problem.actuations * load.energy_per_cycle_j) / kRounding,
+                  load.current_a / kRounding};
+}
+
+// Share of the objective of the pumps of the source, and of the vacuum beside it with its
+// reservoirs.
+double LeastOfPumps(const Plan& plan, const Box& box) {
+  const auto least = [&](const auto& tree, int slot) {
+    return slot < 0 ? 0.0 : tree.corners[box.nodes[slot]].objective;
+  };
+  return least(plan.compressors, plan.compressor_slot) +
+         least(plan.rail.pumps, plan.rail.pump_slot) +
+         least(plan.rail.reservoirs, plan.rail.reservoir_slot);
+}
+
+// At so much of the way from the lowest to the highest inlet pressure that matters.
+double GasAt(const BottleCorner& corner, double share) {
+  return (1.0 - share) * corner.gas_to_low_m3 + share * corner.gas_to_high_m3;
+}
+
 }  // namespace
 
 Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
@@ -79,7 +114,7 @@ Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
     if (const Constraint missed = direct ? NeedOfDirect(box) : NeedOfRegulated(box);
         missed != Constraint::kNone)
       return missed;
-  if (HasPump(plan_.configuration) && !PackDrivesPump(box)) return Constraint::kMating;
+  if (!PackDrivesPump(box)) return Constraint::kMating;
   return RestOfRegulated(box);
 }
 
@@ -155,9 +190,10 @@ double Bounds::RegulatedFloor(const Box& box) const {
 Constraint Bounds::RestOfRegulated(Box& box) {
   const bool direct = IsDirect(plan_.configuration);
   const Inlet inlet = direct ? Inlet{} : InletOf(plan_, box);
-  double bound = inlet.objective + EnergyShare(box.energy_beyond_j);
-  if (plan_.compressor_slot >= 0)
-    bound += CornerAt(plan_.compressors, box, plan_.compressor_slot).objective;
+  const std::optional<RailNeed> rail = LeastOfRail(problem_, CandidateOf(box));
+  if (!rail) return Constraint::kPump;
+  double bound = inlet.objective + LeastOfPumps(plan_, box) +
+                 EnergyShare(box.energy_beyond_j + rail->energy_j);
   Refilling refilling;  // of pumps without a reservoir the current
   if (direct)
     refilling.current_a = direct_.feeds_at_once() * PumpOf(box).rates.CurrentAt(box.window.low_pa);
@@ -194,8 +230,7 @@ Constraint Bounds::RestOfRegulated(Box& box) {
                          all.cost_eur - counted.cost_eur};
     const double bottle =
         LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
-          return c.fill_pressure_pa <= inlet.max_pa &&
-                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= held_m3 &&
+          return c.fill_pressure_pa <= inlet.max_pa && GasAt(c, share) >= held_m3 &&
                  (!tank || Gives({problem_, c, fill_max_pa, inlet_pa}, held_m3, open_m3)) &&
                  c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz &&
                  WithinLimits(others, c.amounts);
@@ -204,10 +239,10 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     bound += bottle;
   }
   int unknown = -1;
-  const BatteryLoad load{(box.energy_j + refilling.energy_j) / kRounding, refilling.current_a,
-                         box.coil_power_w, LeastBesidesBattery(box)};
-  const double battery = LeastBattery(box, load, unknown);
-  const double lines = std::isinf(battery) ? battery : LeastWithLines(box, load, battery);
+  const BatteryLoad load{(box.energy_j + rail->energy_j + refilling.energy_j) / kRounding,
+                         refilling.current_a + rail->current_a, box.coil_power_w,
+                         LeastBesidesBattery(box)};
+  const double lines = LeastWithLines(box, load, LeastBattery(box, load, unknown));
   if (std::isinf(lines)) return Constraint::kBattery;
   box.bound = std::max(box.bound, bound + lines);
   return Constraint::kNone;

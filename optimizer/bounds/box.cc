@@ -78,7 +78,7 @@ int Bounds::WidestSlot(const Box& box, DivideFor divide_for) const {
   const bool tanks_early = divide_for != DivideFor::kDesigns && plan_.compressor_slot >= 0;
   // What fills a tank decides no source pressure, and all that comes behind it.
   const auto decides = [&](int s) {
-    return DecidesSource(s) || s == plan_.compressor_slot ||
+    return DecidesSource(s) || s == plan_.compressor_slot || plan_.rail.Has(s) ||
            (tanks_early && s == plan_.bottle_slot);
   };
   const auto is_source = [&](int s) { return decides(s) && plan_.slots[s].group < 0; };
@@ -202,6 +202,8 @@ Amounts Bounds::LeastBesidesBattery(const Box& box) const {
   add(plan_.bottles, plan_.bottle_slot);
   add(plan_.compressors, plan_.compressor_slot);
   add(plan_.reservoirs, plan_.reservoir_slot);
+  add(plan_.rail.pumps, plan_.rail.pump_slot);
+  add(plan_.rail.reservoirs, plan_.rail.reservoir_slot);
   return least;
 }
 
@@ -235,12 +237,14 @@ double CoilEnergy(const Problem& problem, const Box& box) {
 
 double Bounds::LeastBattery(const Box& box, const BatteryLoad& load, int& known) const {
   if (plan_.battery_slot < 0) return 0.0;
-  const Kinds pump = plan_.compressor_slot < 0
-                         ? ~Kinds{0}
-                         : CornerAt(plan_.compressors, box, plan_.compressor_slot).voltages;
+  const auto voltages = [&](const BoxTree<CompressorCorner>& pumps, int slot) {
+    return slot < 0 ? ~Kinds{0} : CornerAt(pumps, box, slot).voltages;
+  };
+  const Kinds pump = voltages(plan_.compressors, plan_.compressor_slot);
+  const Kinds rail = voltages(plan_.rail.pumps, plan_.rail.pump_slot);
   const BoxTree<BatteryCorner>& tree = plan_.batteries;
   const auto will_do = [&](const BatteryCorner& c) {
-    return (c.voltages & pump) && load.energy_j <= c.energy_j &&
+    return (c.voltages & pump) && (c.voltages & rail) && load.energy_j <= c.energy_j &&
            load.pump_current_a + load.coil_power_w / c.voltage_v <= c.current_max_a &&
            WithinLimits(load.others, c.amounts);
   };
@@ -297,6 +301,8 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   choose(plan_.compressor_slot, candidate.compressor);
   choose(plan_.reservoir_slot, candidate.reservoir);
   choose(plan_.battery_slot, candidate.battery);
+  choose(plan_.rail.pump_slot, candidate.rail.pump);
+  choose(plan_.rail.reservoir_slot, candidate.rail.reservoir);
   candidate.pack_surplus_eur = PackSurplus(problem_, plan_, box);
   return candidate;
 }

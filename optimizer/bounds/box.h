@@ -168,7 +168,7 @@ class Bounds {
     return (*plan_.slots[slot].options)[Node(box, slot).first];
   }
   bool DecidesSource(int slot) const {
-    return slot != plan_.bottle_slot && slot != plan_.battery_slot &&
+    return slot != plan_.bottle_slot && slot != plan_.battery_slot && !plan_.rail.Has(slot) &&
            (slot != plan_.compressor_slot || IsPumped(plan_.configuration));
   }
   bool CoreIsSingle(const Box& box, int except = -1) const;

@@ -39,6 +39,10 @@ class Sketch {
     if (HasTank(configuration())) AddTanks();
     if (configuration() == Configuration::kTankAndPump)
       Add(PumpsOf(problem_, configuration()), most.compressors, Pieces());
+    if (PumpsRail(problem_)) {
+      Add(parts.vacuum_pumps, most.compressors, Pieces());
+      Add(parts.reservoirs, most.reservoirs, Pieces());
+    }
     if (configuration() != Configuration::kMains) AddBatteries();
     outline_.bound *= kRounding;
     return outline_;

@@ -6,6 +6,8 @@
 //                have their own)
 //   compressor:  tube, fitting, valve of each group; compressor, reservoir, battery
 //   direct pump: tube, fitting, valve of each group; compressor, battery
+//   vacuum pumps beside a regulated source (PumpsRail): also vacuum pump and its reservoir, between
+//                bottle and battery
 #ifndef PLENUM_OPTIMIZER_CHOICES_PLAN_H_
 #define PLENUM_OPTIMIZER_CHOICES_PLAN_H_
 
@@ -38,6 +40,14 @@ struct BottleRange {
   double low_pa = 0.0, high_pa = 0.0;
 };
 
+// The vacuum beside a regulated source; no slots: pumps keep none.
+struct RailTrees {
+  BoxTree<CompressorCorner> pumps;
+  BoxTree<ReservoirCorner> reservoirs;
+  int pump_slot = -1, reservoir_slot = -1;
+  bool Has(int slot) const { return slot >= 0 && (slot == pump_slot || slot == reservoir_slot); }
+};
+
 struct Plan {
   Plan() = default;
   Plan(const Plan&) = delete;  // slots point into the trees
@@ -56,6 +66,7 @@ struct Plan {
   BoxTree<BatteryCorner> batteries;
   std::vector<Slot> slots;
   int bottle_slot = -1, compressor_slot = -1, reservoir_slot = -1, battery_slot = -1;
+  RailTrees rail;
   std::vector<int> regulator_slots;  // as the trees of regulators
 
   BottleRange bottle_range;

@@ -48,6 +48,8 @@ void Reweigh(const Problem& problem, Plan& plan) {
   ReweighTree(objective, plan.compressors);
   ReweighTree(objective, plan.reservoirs);
   ReweighTree(objective, plan.batteries);
+  ReweighTree(objective, plan.rail.pumps);
+  ReweighTree(objective, plan.rail.reservoirs);
 }
 
 }  // namespace plenum::optimizer

@@ -164,8 +164,9 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
                           const OperatingPointOf<T>& point) {
   AmountsOf<T> total;
   for (const Line* line : candidate.lines) total += line->amounts;
-  for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
-                               &candidate.battery, &candidate.reservoir})
+  for (const Option* option :
+       {&candidate.regulator, &candidate.bottle, &candidate.compressor, &candidate.battery,
+        &candidate.reservoir, &candidate.rail.pump, &candidate.rail.reservoir})
     total += option->amounts;
   for (const Option& own : candidate.own_regulators) total += own.amounts;
   total.cost_eur += candidate.pack_surplus_eur;

@@ -33,11 +33,19 @@ struct Workbench {
   bool stopped() const { return stop && stop(); }
 };
 
+// Of the vacuum beside the source (pumped_rail.h), and the weakest pressure that does; 0: not found
+// yet.
+struct RailChoice {
+  Option pump, reservoir;
+  double weakest_pa = 0.0;
+};
+
 struct Candidate {
   Configuration configuration = Configuration::kMains;
   std::vector<const Line*> lines;  // one per group
   Option regulator, bottle, compressor, battery, reservoir;
   std::vector<Option> own_regulators = {};  // one a group, in place of `regulator`; or empty
+  RailChoice rail = {};
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;
@@ -63,6 +71,7 @@ struct OperatingPointOf {
   double tank_fill_pa = 0.0;          // 0: the least that does (see below)
   std::vector<double> group_pa = {};  // behind each group's own regulator; or empty
   double pump_stop_pa = 0.0;          // of pumps that fill a tank; 0: the lowest that does
+  double rail_pa = 0.0;               // 0: the weakest that does (pumped_rail.h)
 };
 using OperatingPoint = OperatingPointOf<double>;
 

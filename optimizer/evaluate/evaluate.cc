@@ -82,6 +82,15 @@ T SourceFrequency(const Problem& problem, const Candidate& candidate,
   return T(kUnlimited);
 }
 
+// The same that the pumps of a vacuum beside the source sustain.
+template <class T>
+T RailFrequency(const Problem& problem, const Candidate& candidate,
+                const EvaluationOf<T>& evaluation) {
+  const RailSource source = RailSourceOf(problem, candidate);
+  if (!source.curve) return T(kUnlimited);
+  return T(problem.frequency_hz * (source.duty_max / evaluation.rail.duty));
+}
+
 // Energy to fill the reservoir the first time: ∫ P/Q grows by its integrand with the upper end.
 template <class T>
 T FirstFill(const Problem& problem, const model::CompressorCurve& curve,
@@ -147,6 +156,31 @@ void AddRefill(const Problem& problem, const Candidate& candidate, const Operati
       model::LargestCurrent(curve, problem.ambient.pressure_pa, refill.stop_pa);
 }
 
+// The vacuum that pumps keep beside the source; false where they keep none at which falls are in
+// time.
+template <class T>
+bool AddRail(const Problem& problem, const Candidate& candidate, double given_pa,
+             EvaluationOf<T>& evaluation) {
+  const RailSource source = RailSourceOf(problem, candidate);
+  if (!source.curve) return true;
+  const model::Gas gas = GasOf(candidate.configuration);
+  const auto found_pa = given_pa > 0.0 ? std::optional(given_pa)
+                        : candidate.rail.weakest_pa > 0.0
+                            ? std::optional(candidate.rail.weakest_pa)
+                            : WeakestRailPa(problem, source, candidate.lines, gas);
+  if (!found_pa) return false;
+  evaluation.rail = LoadOf(problem, source, RailAir(problem, candidate.lines), *found_pa);
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    GroupPerformanceOf<T>& group = evaluation.groups[g];
+    group.fall_time_s = T(FallAtRail(problem, g, *candidate.lines[g], gas, *found_pa));
+    group.frequency_max_hz = 1.0 / (group.rise_time_s + group.fall_time_s);
+  }
+  evaluation.energy_first_fill_j += evaluation.rail.first_fill_j;
+  evaluation.energy_per_cycle_j += evaluation.rail.energy_per_cycle_j;
+  evaluation.battery_current_a += evaluation.rail.current_a;
+  return std::isfinite(evaluation.rail.duty);
+}
+
 template <class T>
 void AddBattery(const Problem& problem, const Candidate& candidate, double coil_power_w,
                 EvaluationOf<T>& evaluation) {
@@ -175,6 +209,7 @@ double BestFillOf(const Problem& problem, const Candidate& candidate,
 template <class T>
 OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
                            OperatingPointOf<T> point, const EvaluationOf<T>& evaluation) {
+  point.rail_pa = evaluation.rail.weakest_pa;
   if (TankVolume(problem, candidate) == 0.0) return point;
   const double source_pa = model::ValueOf(point.source_pa);
   if (IsOpenTank(candidate))
@@ -257,11 +292,16 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
     evaluation.air_available_m3 =
         TankAir(problem, candidate, Filled(problem, candidate, point, evaluation).tank_fill_pa,
                 TankInletPa(problem, candidate, model::ValueOf(point.source_pa)));
+  if (!AddRail(problem, candidate, point.rail_pa, evaluation)) {
+    evaluation.works = false;
+    return evaluation;
+  }
   AddBattery(problem, candidate, coil_power_w, evaluation);
   evaluation.energy_total_j =
       evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;
-  evaluation.frequency_sustained_hz = std::min(SourceFrequency(problem, candidate, evaluation),
-                                               StrokeFrequency(problem, evaluation));
+  evaluation.frequency_sustained_hz = std::min({SourceFrequency(problem, candidate, evaluation),
+                                                RailFrequency(problem, candidate, evaluation),
+                                                StrokeFrequency(problem, evaluation)});
   return evaluation;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/evaluate/pumped_rail.h"
 
 namespace plenum::optimizer {
 
@@ -28,6 +29,7 @@ struct EvaluationOf {
   T compressor_duty = T(0.0);
   T frequency_sustained_hz = T(0.0);
   bool from_full = false;  // each stroke finds the reservoir full
+  RailLoad rail = {};      // of the vacuum beside the source, where it has pumps
 };
 using Evaluation = EvaluationOf<double>;
 
@@ -52,9 +54,10 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
                              const Candidate& candidate, const OperatingPointOf<T>& point,
                              const EvaluateOptions& options = {});
 
-// The point with the tank's fill: its own, or the least that holds the air of the evaluation, or
-// the best of one that pumps go on filling (refilled_tank.h), whose evaluation without a fill is
-// that at the highest; of a candidate without a tank as it is.
+// The point with the pressure of a vacuum beside the source, and the tank's fill: its own, or the
+// least that holds the air of the evaluation, or the best of one that pumps go on filling
+// (refilled_tank.h), whose evaluation without a fill is that at the highest; of a candidate without
+// a tank as it is.
 template <class T>
 OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
                            OperatingPointOf<T> point, const EvaluationOf<T>& evaluation);

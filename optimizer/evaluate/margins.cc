@@ -74,6 +74,10 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
     margins.push_back(AtMost<T>(SourceLimitPointer(problem),
                                 KpaGauge(problem, problem.source_pressure_max_pa),
                                 T((point.source_pa - ambient_pa) / pa_per_kpa)));
+  if (problem.rail_floor_pa > model::kDeepestVacuumPa)
+    margins.push_back(AtMost<T>("/supply/vacuum/vacuum_kpa_gauge_min",
+                                KpaGauge(problem, problem.rail_floor_pa),
+                                T((evaluation.rail.stop_pa - ambient_pa) / kPaPerKpa)));
   const OperatingPointOf<T> filled = Filled(problem, candidate, point, evaluation);
   if (filled.tank_fill_pa > 0.0 && std::isfinite(problem.tank_fill_max_pa))
     margins.push_back(AtMost<T>("/supply/tank_fill_kpa_gauge_max",

@@ -6,28 +6,33 @@
 namespace plenum::optimizer {
 namespace {
 
-Option Candidate::*PlaceOf(Family family) {
+// Of a candidate that may be const.
+template <class Candidates>
+auto& PlaceOf(Candidates& candidate, Family family) {
   switch (family) {
-    case Family::kCompressor:
     case Family::kVacuumPump:
+      return IsVacuum(candidate.configuration) ? candidate.compressor : candidate.rail.pump;
+    case Family::kVacuumReservoir:
+      return candidate.rail.reservoir;
+    case Family::kCompressor:
     case Family::kEjector:
-      return &Candidate::compressor;
+      return candidate.compressor;
     case Family::kBattery:
-      return &Candidate::battery;
+      return candidate.battery;
     case Family::kRegulator:
-      return &Candidate::regulator;
+      return candidate.regulator;
     case Family::kReservoir:
-      return &Candidate::reservoir;
+      return candidate.reservoir;
     default:
-      return &Candidate::bottle;
+      return candidate.bottle;
   }
 }
 
 }  // namespace
 
-Option& OptionOf(Candidate& candidate, Family family) { return candidate.*PlaceOf(family); }
+Option& OptionOf(Candidate& candidate, Family family) { return PlaceOf(candidate, family); }
 const Option& OptionOf(const Candidate& candidate, Family family) {
-  return candidate.*PlaceOf(family);
+  return PlaceOf(candidate, family);
 }
 
 double ChargeKg(const Problem& problem, Family family, int part) {

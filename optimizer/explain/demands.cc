@@ -59,10 +59,11 @@ void AddPrices(const Problem& problem, std::vector<Demand>& list) {
 
 void AddLimits(const Problem& problem, std::vector<Demand>& list) {
   const auto add = [&](const char* pointer, int Limits::*limit,
-                       const std::vector<Configuration>& users) {
-    const bool used = std::any_of(users.begin(), users.end(), [&](Configuration user) {
-      return problem.configurations.contains(user);
-    });
+                       const std::vector<Configuration>& users, bool rail = false) {
+    const bool used = (rail && PumpsRail(problem)) ||
+                      std::any_of(users.begin(), users.end(), [&](Configuration user) {
+                        return problem.configurations.contains(user);
+                      });
     if (used && problem.limits.*limit < kPiecesMost)
       list.push_back(OfNumber(pointer, problem.limits.*limit, kPiecesMost, true,
                               [limit](Problem& p, double value) {
@@ -77,14 +78,14 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
                       direct_ejector = Configuration::kDirectEjector,
                       refilled = Configuration::kTankAndPump;
   add("/limits/compressors_max", &Limits::compressors,
-      {pump, direct, vacuum, direct_vacuum, refilled, ejector, direct_ejector});
+      {pump, direct, vacuum, direct_vacuum, refilled, ejector, direct_ejector}, true);
   if (problem.power.kind == PowerKind::kBattery)
     add("/limits/batteries_max", &Limits::batteries,
         {pump, bottle, co2, tank, direct, vacuum, direct_vacuum, refilled, ejector,
          direct_ejector});
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
-  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum, refilled, ejector});
+  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum, refilled, ejector}, true);
 }
 
 // What the robot gives; as many of its supplies there are not.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/pumped_rail.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -88,6 +89,13 @@ std::vector<Requirement> Requirements(const Problem& problem) {
          [](Problem& p, double value) { p.source_pressure_max_pa = PaFromKpaGauge(p, value); },
          std::nullopt});
   }
+  if (problem.rail_floor_pa > model::kDeepestVacuumPa)
+    list.push_back({"/supply/vacuum/vacuum_kpa_gauge_min", KpaGauge(problem, problem.rail_floor_pa),
+                    KpaGauge(problem, model::kDeepestVacuumPa),
+                    [](Problem& p, double value) {
+                      SetRailFloor(std::max(model::kDeepestVacuumPa, PaFromKpaGauge(p, value)), p);
+                    },
+                    std::nullopt});
   if (std::isfinite(problem.tank_fill_max_pa) &&
       (problem.configurations.contains(Configuration::kTank) ||
        problem.configurations.contains(Configuration::kTankAndPump))) {

@@ -2,6 +2,7 @@
 #ifndef PLENUM_OPTIMIZER_EXPLAIN_REQUIREMENTS_H_
 #define PLENUM_OPTIMIZER_EXPLAIN_REQUIREMENTS_H_
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,10 +30,11 @@ std::vector<std::size_t> GroupsOfEntry(const Problem& problem, std::size_t group
 // those that the problem has.
 std::vector<Requirement> Requirements(const Problem& problem);
 
-// The value that is easier (share > 0) or harder (share < 0) by a share of the required one.
+// The value that is easier (share > 0) or harder (share < 0) by a share of the required one. Of
+// pressures under vacuum, which are below 0, the sizes count.
 inline double Loosened(const Requirement& requirement, double share) {
-  return requirement.required *
-         (requirement.loosest > requirement.required ? 1.0 + share : 1.0 - share);
+  const bool more_is_easier = std::abs(requirement.loosest) > std::abs(requirement.required);
+  return requirement.required * (more_is_easier ? 1.0 + share : 1.0 - share);
 }
 
 }  // namespace plenum::optimizer

@@ -2,6 +2,8 @@
 #ifndef PLENUM_OPTIMIZER_PROBLEM_CONFIGURATION_H_
 #define PLENUM_OPTIMIZER_PROBLEM_CONFIGURATION_H_
 
+#include <optional>
+
 namespace plenum::optimizer {
 
 // kDirectPump: pumps without a reservoir that fill one group after another (candidate.h).
@@ -57,6 +59,14 @@ inline bool IsVacuum(Configuration configuration) {
   return configuration == Configuration::kVacuumPump ||
          configuration == Configuration::kDirectVacuumPump || IsEjector(configuration);
 }
+
+// How pumps keep a rail of vacuum beside a pressure supply (evaluate/pumped_rail.h). Absolute.
+struct RailSettings {
+  double pressure_pa = 0.0;  // the weakest that it comes to, which lines are judged with
+  double stop_pa = 0.0;      // at which its pumps stop
+  double duty = 0.0;         // of each pump
+  double volume_m3 = 0.0;    // of its reservoirs
+};
 
 }  // namespace plenum::optimizer
 

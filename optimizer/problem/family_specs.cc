@@ -30,6 +30,7 @@ struct Place {
   int Limits::*most = nullptr;
   bool by_need = false, made_to_measure = false, joins = false;
   KindRole kind_role = KindRole::kApart;
+  bool on_rail = false;
 };
 
 template <auto list>
@@ -46,17 +47,19 @@ FamilySpec Spec(Family family, const char* name, std::span<const PartField> fiel
                   .joins = place.joins,
                   .by_need = place.by_need,
                   .made_to_measure = place.made_to_measure,
-                  .kind_role = place.kind_role};
+                  .kind_role = place.kind_role,
+                  .on_rail = place.on_rail};
   for (const Configuration configuration : place.sources)
     spec.in_source[static_cast<std::size_t>(configuration)] = true;
   return spec;
 }
 
-Place PumpsIn(std::vector<Configuration> sources) {
+Place PumpsIn(std::vector<Configuration> sources, bool on_rail = false) {
   return {.place = 6,
           .sources = std::move(sources),
           .most = &Limits::compressors,
-          .kind_role = KindRole::kSource};
+          .kind_role = KindRole::kSource,
+          .on_rail = on_rail};
 }
 
 std::vector<Family> InOrder(std::vector<Family> families) {
@@ -114,13 +117,15 @@ std::vector<FamilySpec> OwnFamilies() {
                            .by_need = true,
                            .kind_role = KindRole::kSource}),
       Spec<&Parts::vacuum_pumps>(Family::kVacuumPump, "vacuum_pump", kVacuumPumpFields,
-                                 PumpsIn({kVacuumPump, kDirectVacuumPump})),
+                                 PumpsIn({kVacuumPump, kDirectVacuumPump}, true)),
       Spec<&Parts::manifolds>(Family::kManifold, "manifold", kManifoldFields,
                               {.place = 9, .joins = true}),
       Spec<&Parts::ejectors>(Family::kEjector, "ejector", kEjectorFields,
                              PumpsIn({kEjector, kDirectEjector})),
       Spec<&Parts::check_valves>(Family::kCheckValve, "check_valve", kCheckValveFields,
                                  {.place = 10, .joins = true}),
+      Spec<&Parts::reservoirs>(Family::kVacuumReservoir, "reservoir", kReservoirFields,
+                               {.place = 8, .most = &Limits::reservoirs, .on_rail = true}),
   };
 }
 
@@ -136,7 +141,7 @@ int ChoicesIn(const Problem& problem, Configuration configuration, Family family
   const int all = FamilySize(problem.parts, family);
   const bool any_voltage = family == Family::kBattery &&
                            (!HasPump(configuration) || IsEjector(configuration)) &&
-                           problem.power.kind != PowerKind::kBattery;
+                           !PumpsRail(problem) && problem.power.kind != PowerKind::kBattery;
   return any_voltage ? std::min(all, 1) : all;
 }
 
@@ -155,12 +160,13 @@ int FindPart(const model::Parts& parts, Family family, const std::string& id) {
 }
 
 Family FamilyIn(Configuration configuration, Family named) {
-  const bool tank = HasTank(configuration) && named == Family::kReservoir;
-  return tank ? Family::kTank : named;
+  if (named != Family::kReservoir || KeepsReservoir(configuration)) return named;
+  return HasTank(configuration) ? Family::kTank : Family::kVacuumReservoir;
 }
 
 Family CatalogueFamily(Family family) {
-  return family == Family::kTank ? Family::kReservoir : family;
+  const bool another = family == Family::kTank || family == Family::kVacuumReservoir;
+  return another ? Family::kReservoir : family;
 }
 
 bool MayLack(Configuration configuration, Family family) {
@@ -187,10 +193,14 @@ std::vector<Family> LineFamilies() {
   return InOrder(std::move(families));
 }
 
-std::vector<Family> SourceFamilies(Configuration configuration) {
+bool IsInSource(const Problem& problem, Configuration configuration, const FamilySpec& spec) {
+  return spec.InSourceOf(configuration) || (spec.on_rail && PumpsRail(problem));
+}
+
+std::vector<Family> SourceFamilies(const Problem& problem, Configuration configuration) {
   std::vector<Family> families;
   for (const FamilySpec& spec : Families())
-    if (spec.InSourceOf(configuration)) families.push_back(spec.family);
+    if (IsInSource(problem, configuration, spec)) families.push_back(spec.family);
   return InOrder(std::move(families));
 }
 

@@ -30,6 +30,7 @@ struct FamilySpec {
   bool by_need = false;          // chosen by what it must bear, once all else is known
   bool made_to_measure = false;  // one may be made instead ("custom")
   KindRole kind_role = KindRole::kApart;
+  bool on_rail = false;  // of the vacuum beside a pressure supply (PumpsRail)
 
   bool InSourceOf(Configuration configuration) const {
     return in_source[static_cast<std::size_t>(configuration)];
@@ -52,7 +53,8 @@ const model::PartBasics& BasicsOf(const model::Parts& parts, Family family, int 
 model::PartBasics& BasicsOf(model::Parts& parts, Family family, int part);
 // Index of the part with this id; −1: the family has none.
 int FindPart(const model::Parts& parts, Family family, const std::string& id);
-// The family of the same name that a design of the configuration has: of a tank, its tank.
+// The family of the same name that a design of the configuration has: of a tank, its tank; of a
+// source without a reservoir that of its vacuum.
 Family FamilyIn(Configuration configuration, Family named);
 // The family under whose name the catalogue and a request hold its parts: of a tank, the
 // reservoirs.
@@ -66,7 +68,9 @@ bool MadeToMeasureAllowed(const Problem& problem, Family family);
 
 // Of the line of a group and of a configuration's source, in the order of a parts list.
 std::vector<Family> LineFamilies();
-std::vector<Family> SourceFamilies(Configuration configuration);
+std::vector<Family> SourceFamilies(const Problem& problem, Configuration configuration);
+// Whether the source of a configuration has a part of the family.
+bool IsInSource(const Problem& problem, Configuration configuration, const FamilySpec& spec);
 
 }  // namespace plenum::optimizer
 

@@ -83,6 +83,11 @@ bool MayBeJoined(Family family) {
   return !spec.in_line && !spec.joins && family != Family::kBattery;
 }
 
+// Pumps fill a tank, or keep a vacuum.
+bool MayFeedRegulators(Family family) {
+  return !IsPump(family) && family != Family::kVacuumReservoir;
+}
+
 // ── check valves ──
 
 auto RankOf(const Problem& problem, const model::CheckValve& row) {
@@ -157,7 +162,7 @@ std::optional<Joint> JointOfLines(const Problem& problem, int g) {
 }
 
 std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family, int part) {
-  if (family == Family::kCompressor) return std::nullopt;  // it fills the tank
+  if (!MayFeedRegulators(family)) return std::nullopt;
   const bool bottle = family == Family::kCylinder || family == Family::kCo2;
   return Least(problem, static_cast<int>(problem.groups.size()), PressureOf(problem, family, part),
                bottle ? 0.0 : JointConductance(problem));
@@ -165,7 +170,7 @@ std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family,
 
 std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity) {
   if (quantity < 2 || !MayBeJoined(family)) return std::nullopt;
-  const bool drawn_from = family == Family::kReservoir || family == Family::kTank;
+  const bool drawn_from = CatalogueFamily(family) == Family::kReservoir;
   return Least(problem, quantity, PressureOf(problem, family, part),
                drawn_from ? JointConductance(problem) : 0.0);
 }
@@ -251,7 +256,7 @@ std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& r
       for (const Joint& joint : JointsOfFeeds(problem, row.family, part, pieces / FeedsOf(problem)))
         add(joint);
     if (own) add(JointOfOwnRegulators(problem, row.family, part));
-    joined = true;
+    joined = joined || MayFeedRegulators(row.family);
   }
   if (own && !joined) add(JointOfOwnRegulators(problem, Family::kRegulator, 0));
   return joints;

@@ -46,7 +46,7 @@ Kind DesignKinds::Of(Configuration configuration, const std::vector<Choice>& cho
 }
 
 int OtherSeriesNeeded(const Problem& problem, Family family, bool own_regulators) {
-  const int of_source = std::min(problem.count, problem.per_source);
+  const int of_source = std::min(problem.count, problem.limits.per_source);
   const int of_groups = of_source + static_cast<int>(problem.groups.size()) - 1;
   switch (SpecOf(family).kind_role) {
     case KindRole::kRegulator:

@@ -5,7 +5,7 @@
 // its own.
 //
 // A list of kinds holds the best design of each of the best kinds, of kinds with the same
-// configuration and source at most Problem::per_source.
+// configuration and source at most Limits::per_source.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_KIND_H_
 #define PLENUM_OPTIMIZER_PROBLEM_KIND_H_
 

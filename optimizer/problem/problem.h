@@ -45,7 +45,8 @@ enum class Family {
   kVacuumPump,
   kManifold,  // of joints.h: no choice
   kEjector,
-  kCheckValve  // as manifolds
+  kCheckValve,      // as manifolds
+  kVacuumReservoir  // of the vacuum beside a pressure supply
 };
 const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
 
@@ -111,8 +112,10 @@ const char* Name(Regulation regulation);  // "shared", "per_group", "any"
 enum class PumpFeed { kShared, kPerGroup, kPerActuator };
 const char* Name(PumpFeed feed);  // "shared", "per_group", "per_actuator"
 
-struct Limits {  // most identical parts in parallel
+struct Limits {
+  // Most identical parts in parallel.
   int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
+  int per_source = 3;  // most kinds on the list with the same sources
 };
 
 // The parts are at the worst of their tolerances (model/flow/parts.h): a design that meets the
@@ -138,9 +141,8 @@ struct Problem {
   Power power;
   double source_pressure_max_pa = kUnlimited;
   double tank_fill_max_pa = kUnlimited;  // a tank is filled to its rating at most, too
-  double mass_max_kg = kUnlimited;
-  double volume_max_l = kUnlimited;
-  double cost_max_eur = kUnlimited;
+  double rail_floor_pa = 0.0;  // vacuum pumps keep a rail at this or above; 0: there are none
+  double mass_max_kg = kUnlimited, volume_max_l = kUnlimited, cost_max_eur = kUnlimited;
   bool unpriced_allowed = false;  // where cost matters: a part without a price counts as free
   model::Ambient ambient;
   Objective objective;
@@ -152,7 +154,6 @@ struct Problem {
   bool orderable_only = false;                      // no parts that are no products
   int count = 20;
   ListOf list = ListOf::kCombinations;
-  int per_source = 3;                    // most kinds on the list with the same sources
   NlpSolver solver = NlpSolver::kIpopt;  // of continuous settings, the one that is asked first
   std::optional<Guarantee> guarantee;
   model::Parts parts;
@@ -164,6 +165,7 @@ struct Problem {
 inline bool Evacuated(const Problem& problem) {
   return !problem.groups.empty() && problem.groups.front().chamber.evacuated;
 }
+inline bool PumpsRail(const Problem& problem) { return problem.rail_floor_pa > 0.0; }
 
 // Whether pumps run on while what they filled holds (pump_feed.h): then all configurations are
 // direct (IsDirect).
@@ -261,6 +263,7 @@ struct Settings {
   std::vector<double> valve_duty;  // per group
   std::optional<double> tank_fill_pa = {}, pump_stop_pa = {};
   std::vector<double> group_pressure_pa = {};  // behind each group's own regulator
+  std::optional<RailSettings> rail = {};
 };
 
 struct Totals {

@@ -100,13 +100,15 @@ double TriedPressure(const Window& window, int i) {
          std::pow(window.low_pa / window.high_pa, static_cast<double>(i) / kPressures);
 }
 
-// Whether two boxes with the same lines have the same pumps, or regulators where there are none:
-// what does not work with one reservoir, bottle and battery rarely does with the next.
+// Whether two boxes with the same lines have the same pumps, or regulators where there are none,
+// and the same pumps of a vacuum beside them: what does not work with one reservoir, bottle and
+// battery rarely does with the next.
 bool HaveSameSource(const Plan& plan, const Box& a, const Box& b) {
   const auto same = [&](int slot) { return a.nodes[slot] == b.nodes[slot]; };
-  return HasPumps(plan)
-             ? same(plan.compressor_slot)
-             : std::all_of(plan.regulator_slots.begin(), plan.regulator_slots.end(), same);
+  const bool supply =
+      HasPumps(plan) ? same(plan.compressor_slot)
+                     : std::all_of(plan.regulator_slots.begin(), plan.regulator_slots.end(), same);
+  return supply && (plan.rail.pump_slot < 0 || same(plan.rail.pump_slot));
 }
 
 // Whether a design is found below a box by always going on with the half that costs more, which is

@@ -20,7 +20,7 @@ std::string IdOf(const model::Parts& parts, Family family, int index) {
 // The configuration and the series of the sources of all combinations in the box.
 std::optional<Kind::Sources> SourceAt(const Plan& plan, const Box& box) {
   Kind::Sources sources{plan.configuration, {}};
-  for (const int slot : {plan.bottle_slot, plan.compressor_slot}) {
+  for (const int slot : {plan.bottle_slot, plan.compressor_slot, plan.rail.pump_slot}) {
     if (slot < 0) continue;
     const int series = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
     if (series < 0) return std::nullopt;
@@ -46,7 +46,8 @@ TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
   for (int g = 0; g < static_cast<int>(plan.groups.size()); ++g)
     for (int s : {2, 1, 0}) add(kSlotsPerGroup * g + s);  // valve, fitting, tube
   for (int s : plan.regulator_slots) add(s);
-  for (int s : {plan.bottle_slot, plan.compressor_slot, plan.battery_slot, plan.reservoir_slot})
+  for (int s : {plan.bottle_slot, plan.compressor_slot, plan.rail.pump_slot, plan.battery_slot,
+                plan.reservoir_slot, plan.rail.reservoir_slot})
     add(s);
   key.share += TieShareOf(problem.objective, {0.0, 0.0, PackSurplus(problem, plan, box)});
   return key;
@@ -101,7 +102,7 @@ double Ranking::LeaveOutFrom(std::size_t position) {
   std::erase_if(source_end_, [&](const auto& source) {
     return std::count_if(list_.begin(), list_.end(), [&](const Found& found) {
              return found.kind.Source() == source.first;
-           }) < problem_.per_source;
+           }) < problem_.limits.per_source;
   });
   return bound;
 }
@@ -242,8 +243,8 @@ void Ranking::SortKinds() {
     for (; first < end; ++first) {
       Found& found = best[first];
       int& of_source = listed[found.kind.Source()];
-      const bool wanted = !full() && of_source < problem_.per_source;
-      if (wanted && ++of_source == problem_.per_source)
+      const bool wanted = !full() && of_source < problem_.limits.per_source;
+      if (wanted && ++of_source == problem_.limits.per_source)
         source_end_[found.kind.Source()] = EndOfTies(tie_, objective);
       (wanted ? list_ : spare_).push_back(std::move(found));
     }

@@ -236,7 +236,7 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
   std::vector<Choice> parts;
   for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
     AddLine(problem, g, *candidate.lines[g], parts);
-  for (const Family family : SourceFamilies(candidate.configuration)) {
+  for (const Family family : SourceFamilies(problem, candidate.configuration)) {
     if (family == Family::kRegulator)
       for (const Option& own : candidate.own_regulators) {
         AddChoice(problem, family, own, parts);
@@ -281,6 +281,7 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
   }
   if (RefillsTank(candidate)) evaluation = EvaluateFilled(problem, candidate, point);
   if (!evaluation.works) return std::nullopt;  // told to stop meanwhile
+  point.rail_pa = evaluation.rail.weakest_pa;
   Design design = Describe(problem, candidate, point, evaluation);
   design.response = TraceCycle(problem, candidate, point);
   if (design.response.t_s.empty() && candidate.stopped()) return std::nullopt;
@@ -311,6 +312,9 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   if (RefillsTank(candidate))
     design.settings.pump_stop_pa =
         RefillOf(problem, candidate, filled, evaluation.air_per_cycle_m3).stop_pa;
+  if (const RailSource rail = RailSourceOf(problem, candidate); rail.curve)
+    design.settings.rail = {evaluation.rail.weakest_pa, evaluation.rail.stop_pa,
+                            evaluation.rail.duty, rail.volume_m3};
   for (std::size_t g = 0; g < evaluation.groups.size(); ++g)
     design.settings.valve_duty.push_back(problem.groups[g].gait.strokes_per_period *
                                          evaluation.groups[g].inflate_time_s *

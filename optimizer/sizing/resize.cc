@@ -157,6 +157,7 @@ OperatingPoint PointOf(const Problem& problem, const Candidate& candidate, const
                        design.settings.tank_fill_pa.value_or(0.0)};
   point.pump_stop_pa = design.settings.pump_stop_pa.value_or(0.0);
   if (HasOwnRegulators(candidate)) point.group_pa = design.settings.group_pressure_pa;
+  if (design.settings.rail) point.rail_pa = design.settings.rail->pressure_pa;
   return point;
 }
 

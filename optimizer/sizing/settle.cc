@@ -119,9 +119,7 @@ OperatingPoint SettleGroups(const Problem& problem, const Candidate& candidate, 
                                                                                           : 0.0);
 }
 
-}  // namespace
-
-OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
+OperatingPoint SettleSource(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
   // An objective that the pressure moves leaves no freedom, nor does a made-to-measure reservoir at
   // its smallest volume. Pumps without a reservoir have no setting.
   if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom ||
@@ -138,6 +136,31 @@ OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const 
   const double share = freedom.Balance();
   return freedom.SmallestMarginAt(share) >= freedom.SmallestMarginAt(0.0) ? freedom.PointAt(share)
                                                                           : leaf.point;
+}
+
+// A vacuum beside the source is halfway from the weakest that does to the deepest that its pumps
+// keep, or as near to that as all requirements let it be; the weakest where energy counts.
+OperatingPoint SettleRail(const Problem& problem, const Candidate& candidate,
+                          const OperatingPoint& point) {
+  constexpr double kHalf = 0.5, kLeast = 0.01;  // of the way
+  const RailSource source = RailSourceOf(problem, candidate);
+  if (!source.curve || problem.objective.energy_wh > 0.0) return point;
+  const std::optional<double> deepest_pa = DeepestRailPa(problem, source, candidate.lines);
+  const Evaluation weakest = Evaluate(problem, candidate, point);
+  if (!deepest_pa || !weakest.works) return point;
+  for (double share = kHalf; share > kLeast; share *= kHalf) {
+    OperatingPoint deeper = point;
+    deeper.rail_pa = weakest.rail.weakest_pa + share * (*deepest_pa - weakest.rail.weakest_pa);
+    if (SmallestMargin(problem, candidate, deeper, Evaluate(problem, candidate, deeper)) >= 0.0)
+      return deeper;
+  }
+  return point;
+}
+
+}  // namespace
+
+OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
+  return SettleRail(problem, candidate, SettleSource(problem, candidate, leaf));
 }
 
 }  // namespace plenum::optimizer

@@ -209,6 +209,24 @@ Leaf SizeGroups(const Problem& problem, const Candidate& candidate, double tank_
   return leaf;
 }
 
+// The same on the weakest vacuum that does, where pumps keep one beside the source.
+bool LacksRail(const Candidate& candidate) {
+  return candidate.rail.pump.index != kNone && candidate.rail.weakest_pa == 0.0;
+}
+template <typename Size>
+Leaf OnItsRail(const Problem& problem, const Candidate& candidate, const Size& size) {
+  Candidate on_rail = candidate;
+  const std::optional<double> rail_pa = WeakestRailPa(
+      problem, RailSourceOf(problem, candidate), candidate.lines, GasOf(candidate.configuration));
+  on_rail.rail.weakest_pa = rail_pa.value_or(0.0);
+  if (rail_pa) return size(on_rail);
+  Leaf leaf;
+  leaf.status = LeafStatus::kInfeasible;
+  leaf.lower_bound =
+      ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, LeastPoint(problem, 0.0)));
+  return leaf;
+}
+
 }  // namespace
 
 double SmallestMargin(const Problem& problem, const Candidate& candidate,
@@ -263,6 +281,10 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max) {
   if (IsDirect(candidate.configuration)) return SizeDirect(problem, candidate);
+  if (LacksRail(candidate))
+    return OnItsRail(problem, candidate, [&](const Candidate& on_rail) {
+      return SizeAtVolume(problem, on_rail, reservoir_m3, evaluations_max);
+    });
   if (HasOwnRegulators(candidate))
     return SizeGroups(problem, candidate, reservoir_m3, evaluations_max);
   const NeededPressure needed =
@@ -287,6 +309,10 @@ bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
 
 Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
   if (IsDirect(candidate.configuration)) return SizeDirect(problem, candidate);
+  if (LacksRail(candidate))
+    return OnItsRail(problem, candidate, [&](const Candidate& on_rail) {
+      return SizeQuickly(problem, on_rail, reservoir_m3);
+    });
   const OperatingPoint highest =
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.

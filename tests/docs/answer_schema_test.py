@@ -76,7 +76,7 @@ class AnswerSchema(unittest.TestCase):
             with program.service() as get:
                 schemas = Schemas(get("/openapi.json"))
             answers = reference.example_answers(program)
-            for name in ("gripper", "double_acting_lift", "jamming_gripper"):
+            for name in ("gripper", "double_acting_lift", "jamming_gripper", "both_rails"):
                 answers.append(program.answer("design", program.example(name)))
             plain = program.example("gripper_guaranteed")
             del plain["guarantee"]

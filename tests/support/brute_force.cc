@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 
 #include "model/physics/storage.h"
+#include "tests/support/packs/packs_by_hand.h"
 #include "tests/support/pumps/direct_sizing.h"
 #include "tests/support/scan_sizing.h"
 #include "tests/support/small_catalogue.h"
@@ -97,6 +97,25 @@ bool VoltagesMatch(const Problem& problem, const Candidate& candidate) {
 
 using Visit = std::function<void(const Candidate&)>;
 
+// With every vacuum beside the source, where there is one, that the battery drives.
+void ForEachRail(const Problem& problem, Candidate& candidate, const Visit& visit) {
+  if (!PumpsRail(problem)) return visit(candidate);
+  const auto drives = [&](const Option& pump) {
+    if (candidate.battery.index < 0) return true;
+    const double pack_v = problem.parts.batteries[candidate.battery.index].nominal_voltage_v;
+    const double pump_v = problem.parts.vacuum_pumps[pump.index].curve.voltage_v;
+    return std::abs(pack_v - pump_v) <= 0.15 * pump_v * (1.0 + 1e-9);
+  };
+  for (const Option& pump : Options(problem, Family::kVacuumPump, problem.parts.vacuum_pumps,
+                                    problem.limits.compressors))
+    for (const Option& reservoir : Options(problem, Family::kVacuumReservoir,
+                                           problem.parts.reservoirs, problem.limits.reservoirs)) {
+      candidate.rail.pump = pump;
+      candidate.rail.reservoir = reservoir;
+      if (drives(pump)) visit(candidate);
+    }
+}
+
 void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& visit) {
   const model::Parts& parts = problem.parts;
   const std::vector<Option> batteries =
@@ -145,7 +164,7 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
           candidate.compressor = pump;
           candidate.battery = battery;
           if (RegulatorStands(problem, candidate) && (!fills || VoltagesMatch(problem, candidate)))
-            visit(candidate);
+            ForEachRail(problem, candidate, visit);
         }
 }
 
@@ -185,6 +204,9 @@ long long Combinations(const Problem& problem, Configuration configuration) {
     return product * (count(parts.regulators, 1) + 1) * count(parts.tanks, limits.reservoirs) *
            count(parts.batteries, limits.batteries);
   product *= count(parts.regulators, 1);
+  if (PumpsRail(problem))
+    product *=
+        count(parts.vacuum_pumps, limits.compressors) * count(parts.reservoirs, limits.reservoirs);
   if (configuration == Configuration::kMains) return product;
   if (configuration == Configuration::kTankAndPump)
     return product * count(parts.tanks, limits.reservoirs) *
@@ -241,7 +263,9 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   optimizer::Option pumps = candidate.compressor;
   pumps.quantity *= FeedsByHand(problem);
   add(PumpsOf(problem, candidate.configuration), pumps);
+  add(parts.vacuum_pumps, candidate.rail.pump);
   add(parts.batteries, candidate.battery);
+  add(parts.reservoirs, candidate.rail.reservoir);
   add(parts.reservoirs, candidate.reservoir);
   if (candidate.reservoir.index == optimizer::kCustom) key.emplace_back("custom", 1);
   return key;
@@ -270,49 +294,6 @@ void ForEachCombination(const Problem& problem, const Visit& visit) {
     ForEachLine(problem, lines, candidate, visit);
   }
 }
-
-namespace {
-
-// What whole packs cost beyond pieces at price/pack, id by id.
-double SurplusByHand(const Problem& problem, const Candidate& candidate) {
-  std::map<std::string, std::pair<const model::PartBasics*, double>> needs;
-  const auto need = [&](const model::PartBasics& basics, double pieces) {
-    auto& entry = needs[basics.id];
-    entry.first = &basics;
-    entry.second += pieces;
-  };
-  for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
-    const Line& line = *candidate.lines[g];
-    const optimizer::ActuatorGroup& group = problem.groups[g];
-    const model::Valve& valve = problem.parts.valves[line.valve];
-    need(valve.basics, std::ceil(static_cast<double>(group.count) / valve.channels));
-    if (line.fitting >= 0)
-      need(problem.parts.fittings[line.fitting].basics, group.count * group.fittings_per_line);
-    need(problem.parts.tubing[line.tubing].per_metre, group.count * group.tube_length_m);
-  }
-  const auto add = [&](const auto& family, const Option& option, int times = 1) {
-    if (option.index >= 0) need(family[option.index].basics, option.quantity * times);
-  };
-  add(problem.parts.regulators, candidate.regulator);
-  if (candidate.configuration == Configuration::kCylinder)
-    add(problem.parts.cylinders, candidate.bottle);
-  if (candidate.configuration == Configuration::kCo2) add(problem.parts.co2, candidate.bottle);
-  if (HasTank(candidate.configuration)) add(problem.parts.tanks, candidate.bottle);
-  add(PumpsOf(problem, candidate.configuration), candidate.compressor, FeedsByHand(problem));
-  add(problem.parts.batteries, candidate.battery);
-  add(problem.parts.reservoirs, candidate.reservoir);
-  double surplus_eur = 0.0;
-  for (const auto& [id, entry] : needs) {
-    const auto& [basics, pieces] = entry;
-    if (!basics->cost_eur || !(basics->pack > 0.0)) continue;
-    int packs = 0;
-    while (packs * basics->pack < pieces - 1e-9) ++packs;
-    surplus_eur += (packs * basics->pack - pieces) * *basics->cost_eur;
-  }
-  return surplus_eur;
-}
-
-}  // namespace
 
 double StockVolume(const Problem& problem, const Candidate& candidate) {
   if (HasTank(candidate.configuration) && candidate.bottle.index >= 0)

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "optimizer/evaluate/pumped_rail.h"
+#include "tests/support/pumps/vacuum_problems.h"
+
 namespace plenum::test {
 
 optimizer::Problem RailProblem(const Draw& draw) {
@@ -21,6 +24,31 @@ optimizer::Problem RailProblem(const Draw& draw) {
   }
   for (model::Valve& valve : problem.parts.valves)
     if (valve.kind == model::ValveKind::kThreeWay) valve.kind = model::ValveKind::kPair;
+  return problem;
+}
+
+optimizer::Problem PumpedRailProblem(const Draw& draw) {
+  optimizer::Problem problem = RailProblem(draw);
+  Random random(draw.seed + 9);
+  model::Parts& parts = problem.parts;
+  for (const model::Compressor& pump : parts.compressors) {
+    model::Compressor vacuum = AsVacuumPump(random, pump);
+    vacuum.curve.voltage_v = Chance(random, 0.7) ? 12.0 : 6.0;
+    if (Chance(random, 0.3)) MakePowerFall(random, vacuum.curve);
+    parts.vacuum_pumps.push_back(std::move(vacuum));
+  }
+  parts.compressors.clear();
+  for (model::Battery& pack : parts.batteries)
+    pack.nominal_voltage_v = Chance(random, 0.7) ? 11.1 : 6.0;
+  for (model::Reservoir& reservoir : parts.reservoirs)
+    reservoir.volume_m3 *= LogUniform(random, 1.0, 6.0);
+  problem.limits.reservoirs = Pick(random, 1, 2);
+  const double floor_pa =
+      Chance(random, 0.5) ? kAmbientPa - Uniform(random, 60e3, 90e3) : model::kDeepestVacuumPa;
+  for (optimizer::ActuatorGroup& group : problem.groups)
+    if (double& low_pa = group.chamber.low_pressure_pa; low_pa > 0.0)
+      low_pa = std::max(low_pa, floor_pa + 1e3);
+  optimizer::SetRailFloor(floor_pa, problem);
   return problem;
 }
 

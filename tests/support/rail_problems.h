@@ -11,6 +11,10 @@ namespace plenum::test {
 // a vacuum from the wall; all valves hold.
 optimizer::Problem RailProblem(const Draw& draw);
 
+// The same with vacuum pumps and reservoirs of their own in place of the wall. The draw's size has
+// compressors, which become vacuum pumps, and reservoirs.
+optimizer::Problem PumpedRailProblem(const Draw& draw);
+
 }  // namespace plenum::test
 
 #endif  // PLENUM_TESTS_SUPPORT_RAIL_PROBLEMS_H_

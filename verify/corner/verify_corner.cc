@@ -33,7 +33,8 @@ Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& st
             const LeastAmounts& amounts = Least(ranges, slot);
             return std::pair(amounts.least.objective, amounts.objective_most);
           },
-          strokes) {
+          strokes),
+      rails_(problem, plan) {
   if (plan.configuration == Configuration::kTankAndPump) fillers_.emplace(problem, plan);
   if (KeepsReservoir(plan.configuration)) pumps_.emplace(problem, plan, amounts_, strokes);
   if (IsDirect(plan.configuration)) direct_.emplace(problem, plan, amounts_, strokes);
@@ -82,6 +83,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
 }
 
 bool Corners::SourceMates(const Ranges& ranges) const {
+  if (!rails_.Mates(ranges)) return false;
   const auto some_mates = [&](int slot) {
     return Any(plan_, ranges, slot,
                [&](const ProofItem& item) { return SourceMates(ranges, item); });
@@ -162,11 +164,10 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const SourceBounds& first = sources.front();
   const double temperature_k = problem_.ambient.temperature_k;
   const double factor = FactorOf(problem_, plan_.configuration);
+  std::vector<const BestLine*> lines;
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+    lines.push_back(&strokes_.Line(ranges, g));
   if (shared_ && !first.some_open) {
-    std::vector<const BestLine*> lines;
-    lines.reserve(problem_.groups.size());
-    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
-      lines.push_back(&strokes_.Line(ranges, g));
     if (TooSlowTogether(problem_,
                         {first.regulator.Flow("sonic_conductance_dm3_per_s_bar"), factor,
                          first.high_pa, first.flow_max},
@@ -176,6 +177,8 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
     chosen += ExcessBehind(ranges, g, plan_.own_regulators ? sources[g] : first);
   if (std::isinf(chosen)) return kUnlimited;
+  const double rail_j = rails_.Energy(ranges, lines);
+  if (std::isinf(rail_j)) return kUnlimited;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
@@ -191,7 +194,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
     coil_j += line.coil_w * line.coil_s;
     if (line.all_hold) inflating_j += strokes * line.coil_w * inflate_s;
   }
-  const double beyond_j = problem_.actuations * inflating_j;
+  const double beyond_j = problem_.actuations * inflating_j + rail_j;
   double sum = chosen + problem_.objective.energy_wh * beyond_j / optimizer::kJoulePerWattHour;
   if (plan_.configuration == Configuration::kMains) return sum;
 

@@ -10,6 +10,7 @@
 #include "verify/corner/verify_best.h"
 #include "verify/corner/verify_direct.h"
 #include "verify/corner/verify_least_line.h"
+#include "verify/corner/verify_least_rail.h"
 #include "verify/corner/verify_line.h"
 #include "verify/corner/verify_pump.h"
 #include "verify/design/verify_choice.h"
@@ -90,6 +91,7 @@ class Corners {
   std::map<SlotRange, Packs> packs_;
   std::map<std::tuple<const BestLine*, int, int, double>, double> inflate_s_;
   LeastLines least_lines_;
+  LeastRails rails_;
   std::optional<Pumps> pumps_;
   std::optional<PumpChoices> fillers_;
   std::optional<DirectPumps> direct_;

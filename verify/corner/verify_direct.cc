@@ -50,7 +50,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
   };
   const auto taken = [&](double p, double chamber_pa) {
     return count *
-           model::FlowBetween(line.fill_series, model::MirrorPa(line.chamber), p, chamber_pa);
+           model::FlowBetween(line.series.fill, model::MirrorPa(line.chamber), p, chamber_pa);
   };
   // Around the pressure at which both are equal.
   const auto node_around = [&](double chamber_pa) {

@@ -96,11 +96,14 @@ bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, c
   if (family == Family::kCylinder)
     return GivesMore(problem, parts.cylinders[i], n, parts.cylinders[j], m);
   if (family == Family::kCo2) return GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
-  if (family == PumpFamily(plan.configuration))
-    return n == m && PumpsOf(problem, plan.configuration)[i].curve ==
-                         PumpsOf(problem, plan.configuration)[j].curve;
-  if (family == Family::kBattery && HasPump(plan.configuration))
-    return Drives(PumpsOf(problem, plan.configuration), parts.batteries[i], parts.batteries[j]);
+  if (optimizer::IsPump(family))
+    return n == m && PumpsIn(parts, family)[i].curve == PumpsIn(parts, family)[j].curve;
+  const auto drives = [&](const std::vector<model::Compressor>& pumps) {
+    return Drives(pumps, parts.batteries[i], parts.batteries[j]);
+  };
+  if (family == Family::kBattery)
+    return (!HasPump(plan.configuration) || drives(PumpsOf(problem, plan.configuration))) &&
+           (!PumpsRail(problem) || drives(parts.vacuum_pumps));
   return true;
 }
 

@@ -97,7 +97,7 @@ bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {
   const double limit_s = std::min(problem_.groups[g].rise_time_max_s, FillWindow(problem_, g));
   const double pumped_m3 = limit_s * pumps_->DeliveryAt(pumps, low_pa);
   if (!line.chamber.evacuated &&
-      model::FillTimeFromReservoir(line.fill_series, line.chamber, count, v.high_m3,
+      model::FillTimeFromReservoir(line.series.fill, line.chamber, count, v.high_m3,
                                    start_pa + ContentPerVolume(problem_) * pumped_m3 / v.low_m3,
                                    ambient_pa, target_pa, temperature_k) > limit_s * kSlack)
     return true;

@@ -155,13 +155,14 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   if (group.fed_past_valve) best.fill.erase(best.fill.begin());
   std::reverse(Evacuated(problem) ? best.fill.begin() : exhaust.begin(),
                Evacuated(problem) ? best.fill.end() : exhaust.end());
-  const double fall_s = model::EmptyTime(model::MakeSeries(exhaust, factor), best.chamber,
-                                         operating_pa, FallenPa(problem, g), temperature_k);
+  best.series.exhaust = model::MakeSeries(exhaust, factor);
+  const double fall_s = model::EmptyTime(best.series.exhaust, best.chamber, operating_pa,
+                                         FallenPa(problem, g), temperature_k);
   if (fall_s > std::min(group.fall_time_max_s, VentWindow(problem, g)) * slack) return best;
 
-  best.fill_series = model::MakeSeries(best.fill, factor);
+  best.series.fill = model::MakeSeries(best.fill, factor);
   const auto seconds = [&](double source_pa, double to_pa) {
-    return model::FillTime(best.fill_series, best.chamber, source_pa, model::RestPa(best.chamber),
+    return model::FillTime(best.series.fill, best.chamber, source_pa, model::RestPa(best.chamber),
                            to_pa, temperature_k);
   };
   const auto fast_enough = [&](double source_pa) {
@@ -179,7 +180,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   }
   best.source_low_pa = low_pa;
   if (best.all_hold) best.inflate_s = seconds(best.source_high_pa, operating_pa);
-  best.filling.flow = model::FlowTable(best.fill_series, model::MirrorPa(best.chamber));
+  best.filling.flow = model::FlowTable(best.series.fill, model::MirrorPa(best.chamber));
   const double target_pa = PressureAt(problem, g, problem.rise_fraction);
   best.filling.to_target =
       KnotsOf(problem, best, g, model::RestPa(best.chamber), target_pa, kPanelsToTarget);

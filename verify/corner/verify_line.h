@@ -31,7 +31,9 @@ struct BestLine {
   // pressure or a time. Nothing below is valid then.
   bool mates = false, works = false;
   std::vector<model::FlowElement> fill;  // in the order crossed, largest C and b of each element
-  model::Series fill_series;             // of these, with gas and temperature factor
+  struct Ways {
+    model::Series fill, exhaust;  // of these, and on the way out, with gas and temperature factor
+  } series;
   Filling filling;
   model::Chamber chamber;       // with the narrowest bore
   model::Chamber widest;        // with the widest

@@ -89,7 +89,7 @@ bool TooSlowTogether(const Problem& problem, const NodeSource& source,
     for (int g = 0; g < groups; ++g)
       air_m3 += TakenBy(problem, g, *lines[g], time_s,
                         problem.groups[g].count * source.source_pa *
-                            lines[g]->fill_series.choked_flow_m3_per_s_pa);
+                            lines[g]->series.fill.choked_flow_m3_per_s_pa);
     const double flow = air_m3 / time_s * (1.0 - kSlack);
     if (flow >
         std::min(source.flow_max_m3_per_s, regulator.choked_flow_m3_per_s_pa * source.source_pa))

@@ -54,6 +54,8 @@ bool Whole(const Problem& problem, const Assembly& a) {
          (a.tank != nullptr) == tank && (a.filler() != nullptr) == filler &&
          (a.pump() != nullptr) == pump && (a.reservoirs > 0) == KeepsReservoir(c) &&
          (a.battery != nullptr) == (c != Configuration::kMains) &&
+         (a.rail.pump != nullptr) == PumpsRail(problem) &&
+         (a.rail.reservoir != nullptr) == PumpsRail(problem) &&
          (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
          (a.co2 != nullptr) == (c == Configuration::kCo2);
 }
@@ -180,6 +182,10 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   join_pieces(PumpFamily(a.configuration), PumpsOf(problem, a.configuration), a.compressor,
               a.compressors);
   join_pieces(Family::kReservoir, parts.reservoirs, a.reservoir, a.reservoirs);
+  join_pieces(Family::kVacuumPump, parts.vacuum_pumps, a.rail.pump, a.rail.pumps);
+  join_pieces(Family::kVacuumReservoir, parts.reservoirs, a.rail.reservoir, a.rail.reservoirs);
+  if (a.rail.pump) add(Times(a.rail.pumps, a.rail.pump->basics));
+  if (a.rail.reservoir) add(Times(a.rail.reservoirs, a.rail.reservoir->basics));
   if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
   if (a.tank) add(Filled(problem, a.tanks, *a.tank, settings));
   if (a.co2) add(Times(a.bottles, a.co2->basics, a.co2->co2_mass_kg));
@@ -237,6 +243,9 @@ bool Fit(const model::Fitting& fitting, const model::Valve& valve) {
 }
 
 bool Fit(const Problem& problem, const Assembly& source) {
+  if (source.rail.pump && source.battery &&
+      !model::VoltageMatches(source.battery->nominal_voltage_v, source.rail.pump->curve.voltage_v))
+    return false;
   if (source.compressor)
     return AirSuffices(problem, *source.compressor, source.compressors) &&
            model::VoltageMatches(source.battery->nominal_voltage_v,
@@ -276,8 +285,13 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
     case Family::kCo2:
       a.bottles = item.quantity;
       return put(parts.co2, a.co2);
-    case Family::kCompressor:
     case Family::kVacuumPump:
+      if (PumpsRail(problem)) {
+        a.rail.pumps = item.quantity;
+        return put(parts.vacuum_pumps, a.rail.pump);
+      }
+      [[fallthrough]];
+    case Family::kCompressor:
     case Family::kEjector:
       a.compressors = item.quantity;
       return put(PumpsIn(parts, family), a.compressor);
@@ -287,6 +301,9 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
     case Family::kReservoir:
       a.reservoirs = item.quantity;
       return put(parts.reservoirs, a.reservoir);
+    case Family::kVacuumReservoir:
+      a.rail.reservoirs = item.quantity;
+      return put(parts.reservoirs, a.rail.reservoir);
     case Family::kTank:
       a.tanks = item.quantity;
       return put(parts.tanks, a.tank);

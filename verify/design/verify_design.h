@@ -19,6 +19,16 @@ struct LineParts {
   bool operator==(const LineParts&) const = default;
 };
 
+// Of the vacuum that pumps keep beside the source, and its weakest pressure, which falls are judged
+// at.
+struct RailParts {
+  const model::Compressor* pump = nullptr;
+  const model::Reservoir* reservoir = nullptr;
+  int pumps = 0, reservoirs = 0;
+  double weakest_pa = 0.0;
+  double VolumeM3() const { return reservoirs * reservoir->volume_m3; }
+};
+
 struct Assembly {
   Configuration configuration = Configuration::kMains;
   std::vector<LineParts> lines;                          // per group
@@ -30,6 +40,7 @@ struct Assembly {
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
   const model::Reservoir* tank = nullptr;       // with or without a regulator
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
+  RailParts rail = {};
   // What strokes draw from, and what goes on filling a tank.
   const model::Compressor* pump() const { return tank ? nullptr : compressor; }
   const model::Compressor* filler() const { return tank ? compressor : nullptr; }

@@ -41,7 +41,7 @@ ProofPlan EmptyPlan(const Problem& problem, const Layout& layout) {
   const int groups = static_cast<int>(problem.groups.size());
   for (int group = 0; group < groups; ++group)
     for (const Family family : LineFamilies()) plan.slots.push_back({family, group, {}, {}});
-  for (const Family family : SourceFamilies(layout.configuration)) {
+  for (const Family family : SourceFamilies(problem, layout.configuration)) {
     const bool own = layout.own_regulators && family == Family::kRegulator;
     for (int group = own ? 0 : -1; group < (own ? groups : 0); ++group)
       plan.slots.push_back({family, group, {}, {}});

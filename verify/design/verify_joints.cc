@@ -99,6 +99,7 @@ JointRows JointOfPieces(const Problem& problem, Family family, int part, int pie
                   std::min(problem.parts.tanks[part].pressure_max_pa, problem.tank_fill_max_pa),
                   Asked(problem));
     case Family::kReservoir:
+    case Family::kVacuumReservoir:
       return Join(problem, pieces, HighestOperatingPa(problem), Asked(problem));
     case Family::kCompressor:
     case Family::kVacuumPump:

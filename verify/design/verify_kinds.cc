@@ -57,7 +57,8 @@ KindName KindOf(const Problem& problem, const Design& design) {
 // them, make other kinds of the same source.
 bool AreEnough(const Problem& problem, const ProofSlot& slot, std::size_t others) {
   const auto count = static_cast<std::size_t>(problem.count);
-  const std::size_t of_source = std::min(count, static_cast<std::size_t>(problem.per_source));
+  const std::size_t of_source =
+      std::min(count, static_cast<std::size_t>(problem.limits.per_source));
   switch (PlaceOf(slot.family)) {
     case Place::kSource:
       return others >= count;
@@ -80,7 +81,7 @@ void CheckKinds(const Problem& problem, const std::vector<Design>& designs, Find
     const KindName kind = KindOf(problem, designs[i]);
     if (!kinds.insert(kind).second)
       findings.push_back({"order", rank + " is of a kind that is listed already"});
-    if (++of_source[kind.source] > problem.per_source)
+    if (++of_source[kind.source] > problem.limits.per_source)
       findings.push_back({"order", rank + " is one kind too many with the same source"});
   }
 }

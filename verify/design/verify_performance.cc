@@ -168,6 +168,23 @@ void CheckVolume(const Settings& settings, const Assembly& assembly, Findings& f
     findings.push_back({"supply", "pumps without a reservoir have no volume of one"});
 }
 
+// The vacuum beside the source: where it is, and where its pumps stop.
+void CheckRail(const Problem& problem, const RailSettings& claimed, const Assembly& assembly,
+               const RailBorne& borne, Findings& findings) {
+  if (!Near(claimed.volume_m3, assembly.rail.VolumeM3(), kSumTolerance))
+    findings.push_back({"supply", "the vacuum's volume is not that of its reservoirs"});
+  const auto gauge = [&](double pa) { return pa - problem.ambient.pressure_pa; };
+  if (!Near(gauge(claimed.stop_pa), gauge(borne.stop_pa), kTimeTolerance) ||
+      !Near(claimed.duty, borne.duty, kEnergyTolerance))
+    findings.push_back({"supply", "the vacuum's pumps stop elsewhere, or run longer"});
+  if (borne.stop_pa < problem.rail_floor_pa * (1.0 - kTimeTolerance))
+    findings.push_back({"supply", "the vacuum is deeper than it may be"});
+  for (const ActuatorGroup& group : problem.groups)
+    if (group.chamber.low_pressure_pa > 0.0 &&
+        claimed.pressure_pa > group.chamber.low_pressure_pa * (1.0 + kSumTolerance))
+      findings.push_back({"supply", "the vacuum does not come to the low pressure"});
+}
+
 // A tank's volume and its fill: of a source without a regulator the source pressure.
 void CheckFill(const Problem& problem, const Settings& settings, const Assembly& assembly,
                Findings& findings) {
@@ -193,8 +210,14 @@ int ActuationsAPeriod(const Problem& problem) {
 
 }  // namespace
 
-bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
+bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& parts,
                       const Stop& stop, Findings& findings) {
+  if (design.settings.rail.has_value() != (parts.rail.pump != nullptr)) {
+    findings.push_back({"supply", "the vacuum's settings are there without pumps, or missing"});
+    return true;  // nothing else can be said
+  }
+  Assembly assembly = parts;
+  if (assembly.rail.pump) assembly.rail.weakest_pa = design.settings.rail->pressure_pa;
   const double source_pa = design.settings.source_pressure_pa;
   if (design.settings.group_pressure_pa.size() != (assembly.owns() ? assembly.lines.size() : 0)) {
     findings.push_back({"supply", "there must be a pressure for each regulator of a group"});
@@ -217,6 +240,8 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   };
   if (assembly.direct()) expect("source_pressure", source_pa, cycle->node_pa, kTimeTolerance);
   const Supply supply = SupplyOf(problem, settings, assembly, *cycle);
+  if (assembly.rail.pump)
+    CheckRail(problem, *design.settings.rail, assembly, supply.rail, findings);
   expect("air_per_actuation", claimed.air_per_actuation_m3,
          cycle->air_m3 / ActuationsAPeriod(problem), kTimeTolerance);
   expect("air_total", claimed.air_total_m3,

@@ -65,9 +65,7 @@ class PressureSizing {
   double floor_pa() const { return floor_pa_; }
 
   Sizing Run(double enough) {
-    Sizing sizing;
-    sizing.status = Sized::kInfeasible;
-    sizing.lower_bound = kUnlimited;
+    Sizing sizing{.status = Sized::kInfeasible, .lower_bound = kUnlimited};
     if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
     const auto alone = cycles_.EachAlone(SettingsAt(stood_.high_pa, volumes_.high_m3), Rising());
     if (alone && StrokeExcess(*alone) > slack_ + kOfIntegration) return sizing;
@@ -117,9 +115,7 @@ class PressureSizing {
 
   // Pumps without a reservoir have no settings.
   Sizing RunDirect() {
-    Sizing sizing;
-    sizing.status = Sized::kInfeasible;
-    sizing.lower_bound = kUnlimited;
+    Sizing sizing{.status = Sized::kInfeasible, .lower_bound = kUnlimited};
     if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
     const auto cycle = CycleAt(stood_.high_pa);
     if (!cycle) return {};
@@ -379,7 +375,10 @@ Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
   return sizing;
 }
 
-Sizing Sizer::SizeAsIs(const Assembly& assembly, double slack, double enough) {
+Sizing Sizer::SizeAsIs(const Assembly& given, double slack, double enough) {
+  const std::optional<Assembly> on_rail = OnItsRail(problem_, given, slack);
+  if (!on_rail) return {.status = Sized::kInfeasible, .lower_bound = kUnlimited};
+  const Assembly& assembly = *on_rail;
   if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_, &fills_);
   if (assembly.direct())
     return PressureSizing(problem_, assembly, *cycles_, {0.0, 0.0}, slack).RunDirect();

@@ -86,6 +86,23 @@ void AddRefill(const Problem& problem, const Settings& settings, const Assembly&
                                             supply.refilled.stop_pa);
 }
 
+// The vacuum beside the source.
+void AddRail(const Problem& problem, const Assembly& a, Supply& supply) {
+  if (!a.rail.pump) return;
+  supply.rail = BorneAt(problem, RailPumpsOf(a), RailLinesOf(problem, a), a.rail.weakest_pa);
+  supply.first_fill_j += supply.rail.first_fill_j;
+  supply.current_a += supply.rail.current_a;
+  supply.frequency_hz = std::min(supply.frequency_hz,
+                                 problem.frequency_hz * a.rail.pump->duty_max / supply.rail.duty);
+}
+
+void AddPacks(const Assembly& a, const Cycle& cycle, Supply& supply) {
+  if (!a.battery) return;
+  supply.energy_j =
+      a.batteries * model::UsableEnergy(a.battery->capacity_ah, a.battery->nominal_voltage_v);
+  supply.current_a += cycle.coil_w / a.battery->nominal_voltage_v;
+}
+
 }  // namespace
 
 Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly& a,
@@ -141,17 +158,14 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
     if (!any_period)
       supply.frequency_hz = std::min(supply.frequency_hz, a.pump()->duty_max / cycle.pump_on_s);
   }
-  if (a.battery) {
-    supply.energy_j =
-        a.batteries * model::UsableEnergy(a.battery->capacity_ah, a.battery->nominal_voltage_v);
-    supply.current_a += cycle.coil_w / a.battery->nominal_voltage_v;
-  }
+  AddRail(problem, a, supply);
+  AddPacks(a, cycle, supply);
   return supply;
 }
 
 double EnergyOf(const Problem& problem, const Supply& supply, const Cycle& cycle) {
   return supply.first_fill_j + supply.refilled.energy_j +
-         problem.actuations * (cycle.pump_j + cycle.electric_j());
+         problem.actuations * (cycle.pump_j + cycle.electric_j() + supply.rail.per_cycle_j);
 }
 
 namespace {
@@ -202,8 +216,8 @@ std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
     at_most(at + "fall_time_s_max", group.fall_time_max_s, cycle.fall_s[g], kTimeTolerance);
   }
   all["/duty/frequency_hz"] = {problem.frequency_hz, supply.frequency_hz, false, kEnergyTolerance};
-  const double per_cycle_j =
-      cycle.pump_j + cycle.electric_j() + supply.refilled.energy_j / problem.actuations;
+  const double per_cycle_j = cycle.pump_j + cycle.electric_j() + supply.rail.per_cycle_j +
+                             supply.refilled.energy_j / problem.actuations;
   const double actuations = std::min(
       supply.gas_m3 / cycle.air_m3,
       per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j : kUnlimited);
@@ -212,6 +226,9 @@ std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
   at_most(Evacuated(problem) ? "/supply/vacuum/vacuum_kpa_gauge_min"
                              : "/supply/source_pressure_kpa_gauge_max",
           gauge(problem.source_pressure_max_pa), gauge(source_pa), kSumTolerance);
+  if (problem.rail_floor_pa > model::kDeepestVacuumPa)
+    all["/supply/vacuum/vacuum_kpa_gauge_min"] = {gauge(problem.rail_floor_pa),
+                                                  gauge(supply.rail.stop_pa), true, kTimeTolerance};
   if (a.tank)
     at_most("/supply/tank_fill_kpa_gauge_max", gauge(problem.tank_fill_max_pa),
             gauge(settings.tank_fill_pa.value_or(0.0)), kSumTolerance);

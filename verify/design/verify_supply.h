@@ -6,6 +6,7 @@
 #include <string>
 
 #include "verify/design/cycle/verify_cycle.h"
+#include "verify/design/cycle/verify_rail.h"
 #include "verify/design/cycle/verify_refill.h"
 #include "verify/design/verify_values.h"
 
@@ -26,6 +27,7 @@ struct Supply {
   double first_fill_j = 0.0, first_fill_m3 = 0.0;
   double current_a = 0.0, frequency_hz = 0.0;
   Refilled refilled = {};  // of a tank that pumps go on filling
+  RailBorne rail{.duty = 0.0, .per_cycle_j = 0.0, .first_fill_j = 0.0, .current_a = 0.0};
 };
 Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly& assembly,
                 const Cycle& cycle);

@@ -55,6 +55,8 @@ using optimizer::PumpFamily;
 using optimizer::PumpFeed;
 using optimizer::PumpsHoldOn;
 using optimizer::PumpsOf;
+using optimizer::PumpsRail;
+using optimizer::RailSettings;
 using optimizer::RobustAnswer;
 using optimizer::RobustOptions;
 using optimizer::Searched;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "model/physics/storage.h"
 #include "verify/design/verify_choice.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_size.h"
@@ -130,10 +131,15 @@ class Enumeration {
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
+        source.battery = &parts.batteries[part];
+        if (PumpsRail(problem_)) {
+          source.rail.pump = &parts.vacuum_pumps[part_of(Family::kVacuumPump)];
+          return model::VoltageMatches(source.battery->nominal_voltage_v,
+                                       source.rail.pump->curve.voltage_v);
+        }
         if (!HasPump(plan().configuration)) return true;
         source.compressor =
             &PumpsOf(problem_, plan().configuration)[part_of(PumpFamily(plan().configuration))];
-        source.battery = &parts.batteries[part];
         return Fit(problem_, source);
       default:
         return true;

@@ -49,7 +49,7 @@ Claims::Claims(const Problem& problem, const Answer& answer) : all_(OnAll(proble
   for (const Design& design : answer.designs) {
     const KindName kind = KindOf(problem, design);
     kinds_.emplace(kind, Behind(problem, design, answer));
-    if (++listed[kind.source] == problem.per_source)
+    if (++listed[kind.source] == problem.limits.per_source)
       sources_.emplace(kind.source, Behind(problem, design, answer));
   }
 }

@@ -94,6 +94,12 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   if (optimizer::KeepsReservoir(design.configuration) && !design.settings.reservoir_volume_m3)
     settings.Fail("reservoir_volume_ml", "is missing: a pump's design has a reservoir");
   design.settings.compressor_duty = settings.OptionalNumber("compressor_duty", kAnyNumber);
+  if (auto& rail = design.settings.rail) {
+    rail->stop_pa =
+        optimizer::PaFromKpaGauge(problem, settings.Number("vacuum_stop_kpa_gauge", kAnyNumber));
+    rail->duty = settings.Number("vacuum_duty", kAnyNumber);
+    rail->volume_m3 = M3FromMl(settings.Number("vacuum_reservoir_volume_ml", kAnyNumber));
+  }
   design.settings.valve_duty = settings.Numbers("valve_duty_groups", kDesignRowsMax, kAnyNumber);
   if (design.settings.valve_duty.size() != problem.groups.size())
     settings.Fail("valve_duty_groups", "must have one number for each group");

@@ -56,23 +56,14 @@ const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
 
 // The field that says how many pieces of a part of the source there may be; null: always one.
 const char* LimitField(Family family) {
-  switch (family) {
-    case Family::kCompressor:
-    case Family::kVacuumPump:
-    case Family::kEjector:
-      return "compressors_max";
-    case Family::kBattery:
-      return "batteries_max";
-    case Family::kCylinder:
-      return "cylinders_max";
-    case Family::kCo2:
-      return "co2_max";
-    case Family::kReservoir:
-    case Family::kTank:
-      return "reservoirs_max";
-    default:
-      return nullptr;
-  }
+  using optimizer::Limits;
+  const auto most = optimizer::SpecOf(family).most;
+  return most == &Limits::compressors  ? "compressors_max"
+         : most == &Limits::batteries  ? "batteries_max"
+         : most == &Limits::cylinders  ? "cylinders_max"
+         : most == &Limits::co2        ? "co2_max"
+         : most == &Limits::reservoirs ? "reservoirs_max"
+                                       : nullptr;
 }
 
 class Check {
@@ -135,7 +126,7 @@ class Check {
     const std::string piece = Piece(choice.family);
     const optimizer::FamilySpec& spec = optimizer::SpecOf(choice.family);
     const bool of_line = spec.in_line || (choice.family == Family::kRegulator && owns_);
-    if (!of_line && !spec.joins && !spec.InSourceOf(design_.configuration))
+    if (!of_line && !spec.joins && !optimizer::IsInSource(problem_, design_.configuration, spec))
       return FailRow(choice, "/family", Is() + " has no " + optimizer::Name(choice.family));
     if (of_line && choice.group < 0)
       return FailRow(choice, "/group",
@@ -253,7 +244,7 @@ class Check {
         if ((family != Family::kFitting || group.fittings_per_line > 0) && !RowOf(family, g))
           Fail("/parts", Piece(family) + " for group " + group.name + " is missing");
     }
-    for (const Family family : optimizer::SourceFamilies(design_.configuration))
+    for (const Family family : optimizer::SourceFamilies(problem_, design_.configuration))
       if (!(family == Family::kRegulator && owns_) && !RowOf(family) &&
           !optimizer::MayLack(design_.configuration, family))
         Fail("/parts", Piece(family) + " is missing: " + Is() + " has one");
@@ -278,16 +269,24 @@ class Check {
                   Quoted(IdOf(valve)) + " is " + Quoted(valve.port));
   }
 
+  // The battery, where there is one, drives the pump.
+  void CheckVoltage(const model::Compressor& pump) {
+    const Choice* battery_row = RowOf(Family::kBattery);
+    if (battery_row == nullptr) return;
+    const double pack_v = Find(problem_.parts.batteries, battery_row)->nominal_voltage_v;
+    if (!model::VoltageMatches(pack_v, pump.curve.voltage_v))
+      FailRow(*battery_row, "/id",
+              "has " + Decimal(pack_v) + " V, but " + Quoted(IdOf(pump)) + " runs at " +
+                  Decimal(pump.curve.voltage_v) + " V, within 15 %");
+  }
+
   void CheckSource() {
     const model::Parts& parts = problem_.parts;
-    const Choice* battery_row = RowOf(Family::kBattery);
+    if (optimizer::PumpsRail(problem_))
+      CheckVoltage(*Find(parts.vacuum_pumps, RowOf(Family::kVacuumPump)));
     if (const auto* pump = Find(optimizer::PumpsOf(problem_, design_.configuration),
                                 RowOf(optimizer::PumpFamily(design_.configuration)))) {
-      const double pack_v = Find(parts.batteries, battery_row)->nominal_voltage_v;
-      if (!model::VoltageMatches(pack_v, pump->curve.voltage_v))
-        FailRow(*battery_row, "/id",
-                "has " + Decimal(pack_v) + " V, but " + Quoted(IdOf(*pump)) + " runs at " +
-                    Decimal(pump->curve.voltage_v) + " V, within 15 %");
+      CheckVoltage(*pump);
       if (optimizer::IsDirect(design_.configuration)) CheckDirectValves();
       if (optimizer::IsPumped(design_.configuration)) return;
     }
@@ -355,9 +354,10 @@ class Check {
     const char* place = "/settings/reservoir_volume_ml";
     const std::optional<double> given = design_.settings.reservoir_volume_m3;
     const std::string is = given ? ", not " + Decimal(Rounded(MlFromM3(*given))) : "";
-    const Choice* row = RowOf(optimizer::FamilyIn(design_.configuration, Family::kReservoir));
+    const bool tank = optimizer::HasTank(design_.configuration);
+    const Choice* row = RowOf(tank ? Family::kTank : Family::kReservoir);
     const optimizer::Settings& settings = design_.settings;
-    if (settings.tank_fill_pa && !optimizer::HasTank(design_.configuration))
+    if (settings.tank_fill_pa && !tank)
       Fail("/settings/tank_fill_kpa_gauge", "must be left out: " + Is() + " has no tank");
     if (settings.pump_stop_pa && design_.configuration != Configuration::kTankAndPump)
       Fail("/settings/pump_stop_kpa_gauge",

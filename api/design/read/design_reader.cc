@@ -48,6 +48,12 @@ void ReadVacuumOf(Reader& reader, const Problem& problem, Configuration configur
                                                  Decimal(*source));
 }
 
+// Of a vacuum that pumps keep beside the pressure.
+void ReadPumpedRail(Reader& reader, const Problem& problem, optimizer::Settings& settings) {
+  const double kpa = reader.Number("vacuum_kpa_gauge", PumpedRailRange(problem));
+  settings.rail = optimizer::RailSettings{PaFromKpaGauge(kpa, problem.ambient)};
+}
+
 // Of a design with a vacuum beside its pressure: the wall's, if it is given.
 void ReadRail(Reader& reader, const Problem& problem) {
   const auto given =
@@ -96,7 +102,10 @@ optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configurat
   else if (reader.Has("source_pressure_kpa_gauge") || !optimizer::IsDirect(configuration))
     settings.source_pressure_pa = PaFromKpaGauge(
         reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
-  if (!optimizer::Evacuated(problem) && reader.Has("vacuum_kpa_gauge")) ReadRail(reader, problem);
+  if (optimizer::PumpsRail(problem))
+    ReadPumpedRail(reader, problem, settings);
+  else if (!optimizer::Evacuated(problem) && reader.Has("vacuum_kpa_gauge"))
+    ReadRail(reader, problem);
   if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
     settings.reservoir_volume_m3 = M3FromMl(*ml);
   if (const auto kpa = reader.OptionalNumber("tank_fill_kpa_gauge", {0, kGaugeMaxKpa}))
@@ -122,7 +131,8 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
   }
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem, design.configuration);
-  PassOver(settings, {"valve_duty", "valve_duty_groups", "compressor_duty", "power"});
+  PassOver(settings, {"valve_duty", "valve_duty_groups", "compressor_duty", "power",
+                      "vacuum_stop_kpa_gauge", "vacuum_duty", "vacuum_reservoir_volume_ml"});
   settings.Finish();
   PassOver(reader, {"rank", "objective", "totals", "performance", "margins", "response", "kind",
                     "packs", "variants", "data_quality", "robustness", "guarantee", "to_be_first"});

@@ -160,7 +160,7 @@ std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   if (ranking->Has("list"))
     parsed.problem.list = ReadEnum<optimizer::ListOf>(
         *ranking, "list", {optimizer::ListOf::kKinds, optimizer::ListOf::kCombinations});
-  parsed.problem.per_source = ranking->Integer("per_source", 1, kDesignsMax, 3);
+  parsed.problem.limits.per_source = ranking->Integer("per_source", 1, kDesignsMax, 3);
   parsed.proof = ranking->Bool("proof", false);
   if (ranking->Has("solver"))
     parsed.problem.solver = ReadEnum<optimizer::NlpSolver>(

@@ -132,7 +132,8 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
 
 bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec) {
   if (!optimizer::Evacuated(problem))
-    return spec.family != Family::kVacuumPump && spec.family != Family::kEjector;
+    return spec.family != Family::kEjector &&
+           (spec.family != Family::kVacuumPump || optimizer::PumpsRail(problem));
   return spec.in_line || spec.joins ||
          std::any_of(problem.configurations.begin(), problem.configurations.end(),
                      [&](Configuration one) { return spec.InSourceOf(one); });
@@ -161,7 +162,7 @@ void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Pro
   std::vector<Family> empty;
   for (const Configuration configuration : problem.configurations) {
     bool possible = true;
-    std::vector<Family> needed = optimizer::SourceFamilies(configuration);
+    std::vector<Family> needed = optimizer::SourceFamilies(problem, configuration);
     needed.insert(needed.begin(), shared.begin(), shared.end());
     for (const Family family : needed) {
       if (optimizer::MayLack(configuration, family) || HasChoice(parts, problem, family)) continue;

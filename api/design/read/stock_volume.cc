@@ -23,7 +23,8 @@ const model::Reservoir& StockOf(const optimizer::Problem& problem,
 
 optimizer::Design WithReservoirVolume(optimizer::Design design, const optimizer::Problem& problem) {
   for (const optimizer::Choice& choice : design.parts)
-    if (optimizer::CatalogueFamily(choice.family) == Family::kReservoir && !IsMadeToMeasure(choice))
+    if ((choice.family == Family::kReservoir || choice.family == Family::kTank) &&
+        !IsMadeToMeasure(choice))
       design.settings.reservoir_volume_m3 = choice.quantity * StockOf(problem, choice).volume_m3;
   return design;
 }

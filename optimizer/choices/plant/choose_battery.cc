@@ -25,7 +25,7 @@ void SetNumbers(const PartNumbers& numbers, BatteryCorner& corner) {
 }
 
 int Planter::PlantBatteries() {
-  const bool pump = HasPump(plan_->configuration);
+  const bool pump = HasPump(plan_->configuration) || PumpsRail(problem_);
   std::map<double, std::pair<int, Kinds>> packs;  // by voltage: a number, and pumps it drives
   const auto rule = [&](int, int, const Entry<BatteryCorner>& entry) {
     const double pack_v = entry.item.corner.voltage_v;

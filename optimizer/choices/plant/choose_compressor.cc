@@ -61,8 +61,12 @@ void SetNumbers(const PartNumbers& numbers, CompressorCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
 }
 
-int Planter::PlantCompressors() {
-  const std::vector<model::Compressor>& parts = PumpsOf(problem_, plan_->configuration);
+int Planter::PlantPumps(Family family, BoxTree<CompressorCorner>& tree) {
+  const std::vector<model::Compressor>& parts = PumpsIn(problem_.parts, family);
+  // Of the vacuum beside a source the image of no pressure at all.
+  const double highest_pa = family == PumpFamily(plan_->configuration)
+                                ? plan_->highest_pump_pa
+                                : 2.0 * problem_.ambient.pressure_pa;
   const int most = problem_.limits.compressors;
   for (const model::Compressor& part : parts) voltages_.Bit(part.curve.voltage_v);
   CoarsePump alone;                                // one of the part that is planted
@@ -77,16 +81,15 @@ int Planter::PlantCompressors() {
     corner.pressure_max_pa = model::HighestPressure(curve);
     corner.duty_max = parts[i].duty_max;
     if (quantity == 1) {
-      alone = MakeCoarsePump(problem_, plan_->highest_pump_pa, curve);
+      alone = MakeCoarsePump(problem_, highest_pa, curve);
       curve_number =
           number_of.try_emplace(Bytes(curve), static_cast<int>(number_of.size())).first->second;
     }
     corner.pump = Several(alone, quantity);
     entry.contender.mates = curve_number * most + quantity - 1;
   };
-  const Family family = PumpFamily(plan_->configuration);
   return PlantSlot(family, -1, ChoicesOf(family), MakeSourceEntries<CompressorCorner>(family, rule),
-                   plan_->compressors);
+                   tree);
 }
 
 }  // namespace plenum::optimizer

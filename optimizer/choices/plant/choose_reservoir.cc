@@ -49,15 +49,15 @@ void Planter::AddMadeReservoir(int mates, const Entry<ReservoirCorner>& entry) c
   entry.contender.losses = {0.0};
 }
 
-int Planter::PlantReservoirs() {
-  Entries<ReservoirCorner> entries = MakeSourceEntries<ReservoirCorner>(
-      Family::kReservoir, [](int, int, const Entry<ReservoirCorner>&) {});
-  long long total = ChoicesOf(Family::kReservoir);
-  if (MadeToMeasureAllowed(problem_, Family::kReservoir)) {
+int Planter::PlantReservoirs(Family family, BoxTree<ReservoirCorner>& tree) {
+  Entries<ReservoirCorner> entries =
+      MakeSourceEntries<ReservoirCorner>(family, [](int, int, const Entry<ReservoirCorner>&) {});
+  long long total = ChoicesOf(family);
+  if (MadeToMeasureAllowed(problem_, family)) {
     ++total;
     if (!PricesNeeded(problem_)) AddMadeReservoir(entries.classes.size(), entries.Add());
   }
-  return PlantSlot(Family::kReservoir, -1, total, std::move(entries), plan_->reservoirs);
+  return PlantSlot(family, -1, total, std::move(entries), tree);
 }
 
 }  // namespace plenum::optimizer

@@ -105,19 +105,26 @@ class Planter {
   std::unique_ptr<Plan> Plant() {
     const std::size_t groups = problem_.groups.size();
     plan_->groups.resize(groups);
-    plan_->slots.reserve((kSlotsPerGroup + 1) * groups + 3);
+    plan_->slots.reserve((kSlotsPerGroup + 1) * groups + 5);
     total_ = priced_ = kept_ = 1;
     for (int g = 0; g < static_cast<int>(groups) && !stopped(); ++g) PlantGroup(g);
     if (stopped()) return nullptr;
     if (IsPumped(plan_->configuration)) {
-      plan_->compressor_slot = PlantCompressors();
-      if (KeepsReservoir(plan_->configuration)) plan_->reservoir_slot = PlantReservoirs();
+      plan_->compressor_slot = PlantPumps(PumpFamily(plan_->configuration), plan_->compressors);
+      if (KeepsReservoir(plan_->configuration))
+        plan_->reservoir_slot = PlantReservoirs(Family::kReservoir, plan_->reservoirs);
     } else {
       PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
       if (HasTank(plan_->configuration)) plan_->bottle_slot = PlantTanks();
-      if (HasPump(plan_->configuration)) plan_->compressor_slot = PlantCompressors();
+      if (HasPump(plan_->configuration))
+        plan_->compressor_slot = PlantPumps(PumpFamily(plan_->configuration), plan_->compressors);
+      if (PumpsRail(problem_)) {
+        plan_->rail.pump_slot = PlantPumps(Family::kVacuumPump, plan_->rail.pumps);
+        plan_->rail.reservoir_slot =
+            PlantReservoirs(Family::kVacuumReservoir, plan_->rail.reservoirs);
+      }
     }
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
     if (stopped()) return nullptr;
@@ -343,8 +350,8 @@ class Planter {
   int PlantCylinders();
   int PlantCo2();
   int PlantTanks();
-  int PlantCompressors();
-  int PlantReservoirs();
+  int PlantPumps(Family family, BoxTree<CompressorCorner>& tree);
+  int PlantReservoirs(Family family, BoxTree<ReservoirCorner>& tree);
   int PlantBatteries();
 
   const Problem& problem_;
@@ -353,7 +360,7 @@ class Planter {
   std::unique_ptr<Plan> plan_;
   double useful_max_pa_ = kUnlimited;
   bool may_stay_open_ = false, may_close_late_ = false;
-  KindsOf<double> voltages_;  // of compressors
+  KindsOf<double> voltages_;  // of pumps
   BigCount total_, priced_, kept_;
 };
 

@@ -16,8 +16,14 @@ double MainsEnergy(const Problem& problem) {
     power_w = std::max(power_w, valve.coil_power_w);
   for (const model::Regulator& regulator : problem.parts.regulators)
     regulator_w = std::max(regulator_w, regulator.electrical_power_w);
+  double pump_w = 0.0;  // of a vacuum beside the mains
+  for (const model::Compressor& pump : problem.parts.vacuum_pumps)
+    pump_w = std::max(pump_w, pump.curve.voltage_v *
+                                  model::LargestCurrent(pump.curve, problem.ambient.pressure_pa,
+                                                        model::HighestPressure(pump.curve)));
   return problem.actuations / problem.frequency_hz *
-         (LineCount(problem) * power_w + static_cast<double>(problem.groups.size()) * regulator_w);
+         (LineCount(problem) * power_w + static_cast<double>(problem.groups.size()) * regulator_w +
+          (PumpsRail(problem) ? problem.limits.compressors * pump_w : 0.0));
 }
 
 // No design uses more than its batteries give.
@@ -74,6 +80,7 @@ double LargestTie(const Problem& problem, const Layout& layout) {
   add(parts.batteries, most.batteries);
   add(parts.reservoirs, most.reservoirs);
   add(parts.tanks, most.reservoirs);
+  if (PumpsRail(problem)) add(parts.vacuum_pumps, most.compressors);
   add(parts.manifolds,
       LineCount(problem) * (1 + most.compressors) + 32);  // of pumps, bottles and reservoirs
   add(parts.check_valves, FeedsOf(problem));

@@ -15,6 +15,14 @@ namespace {
 // pressure fills up to it, as the closed forms say.
 constexpr double kLinearRatio = 1.0 - 1e-9;
 
+// With the vacuum that it empties into, where pumps keep one.
+model::Chamber ChamberAt(const Line& line, const OperatingPoint& point) {
+  model::Chamber chamber = line.chamber;
+  if (chamber.low_pressure_pa > 0.0 && point.rail_pa > 0.0)
+    chamber.exhaust_pressure_pa = point.rail_pa;
+  return chamber;
+}
+
 }  // namespace
 
 model::Gas GasOf(Configuration configuration) {
@@ -102,7 +110,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     model::GroupRig& group = rig.groups.emplace_back();
     group.name = problem.groups[g].name;
     group.count = count / together.feeds;
-    group.chamber = line.chamber;
+    group.chamber = ChamberAt(line, point);
     group.fill = line.fill;
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
@@ -142,7 +150,7 @@ model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
     const Line& line = *candidate.lines[g];
     const double from_pa = line.holds ? line.chamber.operating_pressure_pa : PressureOf(point, g);
     const double empty_s =
-        model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, from_pa,
+        model::EmptyTime(model::MakeSeries(line.exhaust, factor), rig.groups[s].chamber, from_pa,
                          model::RestPa(line.chamber), problem.ambient.temperature_k);
     const double wider = std::max(1.0, empty_s / (kWithin * DeflateWindow(problem, g)));
     model::GroupRig& group = rig.groups[s];

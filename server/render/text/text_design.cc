@@ -50,6 +50,9 @@ std::string SettingsText(const Json& design) {
   if (const Json vacuum = settings.value("vacuum_kpa_gauge", Json());
       vacuum.is_number() && vacuum != settings.at("source_pressure_kpa_gauge"))
     text += fmt::format(", vacuum {} kPa gauge", Short(vacuum));
+  if (const Json stop = settings.value("vacuum_stop_kpa_gauge", Json()); stop.is_number())
+    text += fmt::format(" at the weakest (pumps stop at {}, duty {})", Short(stop),
+                        Percent(settings.at("vacuum_duty")));
   text += ", valve duty " + Percent(settings.at("valve_duty"));
   if (settings.at("compressor_duty").is_number()) {
     text += ", compressor duty " + Percent(settings.at("compressor_duty"));

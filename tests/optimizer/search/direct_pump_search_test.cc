@@ -203,7 +203,7 @@ TEST(DirectPumpSearch, KindsHaveThePumpsSeriesAsTheirSource) {
     Problem problem = Drawn(600 + seed);
     problem.list = optimizer::ListOf::kKinds;
     problem.count = 6;
-    problem.per_source = 2;
+    problem.limits.per_source = 2;
     for (std::size_t i = 0; i < problem.parts.compressors.size(); ++i)
       problem.parts.compressors[i].basics.series = i % 2 == 0 ? "even" : "odd";
     const Answer answer = Recorded(problem);

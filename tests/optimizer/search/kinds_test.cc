@@ -84,7 +84,7 @@ std::vector<Enumerated> BestOfKinds(const Problem& problem, const BruteForce& tr
   std::vector<Enumerated> listed;
   for (const Enumerated& design : best) {
     const KindNames kind = series.Of(design.configuration, design.key);
-    if (++of_source[{kind.configuration, kind.sources}] <= problem.per_source)
+    if (++of_source[{kind.configuration, kind.sources}] <= problem.limits.per_source)
       listed.push_back(design);
   }
   if (static_cast<int>(listed.size()) > problem.count) listed.resize(problem.count);
@@ -119,7 +119,7 @@ Problem Drawn(std::uint64_t seed, std::set<Configuration> configurations, int gr
   problem.limits.batteries = problem.limits.compressors = 2;
   problem.list = ListOf::kKinds;
   problem.count = Pick(random, 1, 8);
-  problem.per_source = Pick(random, 1, 3);
+  problem.limits.per_source = Pick(random, 1, 3);
   return problem;
 }
 
@@ -203,9 +203,9 @@ TEST(KindsTest, MorePerSourceKeepsTheBest) {
   for (std::uint64_t seed = 600; seed < 606; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Problem problem = Drawn(seed, kRegulated, 1, {3, 3, 5, 4, 4, 3, 0, 3, 0});
-    problem.per_source = 1;
+    problem.limits.per_source = 1;
     const Answer one = optimizer::SearchTrees(problem, Within(60.0));
-    problem.per_source = 3;
+    problem.limits.per_source = 3;
     const Answer three = optimizer::SearchTrees(problem, Within(60.0));
     problem.list = ListOf::kCombinations;
     problem.count = 1;
@@ -283,7 +283,7 @@ TEST(KindsTest, BestOfEachConfiguration) {
 TEST(KindsTest, VerifyRefusesWhatIsNoListOfKinds) {
   Problem problem = Drawn(104, kRegulated, 1, {3, 3, 5, 4, 4, 3, 0, 3, 0});
   problem.count = 4;
-  problem.per_source = 2;
+  problem.limits.per_source = 2;
   optimizer::SearchOptions options = Within(60.0);
   options.record = true;
   const Answer answer = optimizer::SearchTrees(problem, options);
@@ -297,7 +297,7 @@ TEST(KindsTest, VerifyRefusesWhatIsNoListOfKinds) {
   combinations.list = ListOf::kCombinations;
   EXPECT_FALSE(accepted(combinations, answer));
   Problem fewer = problem;
-  fewer.per_source = 1;
+  fewer.limits.per_source = 1;
   EXPECT_FALSE(accepted(fewer, answer));
   Problem one_series = problem;  // as if all valves were of one kind
   for (model::Valve& valve : one_series.parts.valves) valve.basics.series = "the same";

@@ -9,6 +9,7 @@
 #include "optimizer/front/pareto.h"
 #include "optimizer/problem/family_specs.h"
 #include "tests/support/enumerated_search.h"
+#include "tests/support/packs/packs_by_hand.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
@@ -19,21 +20,6 @@ using optimizer::Configuration;
 using optimizer::Design;
 using optimizer::Family;
 using optimizer::Problem;
-
-// Most parts that the sources and lines are made of come in packs; of joints, where asked for.
-void SellInPacks(std::uint64_t seed, bool joints, Problem& problem) {
-  Random random(seed);
-  for (const optimizer::FamilySpec& spec : optimizer::Families()) {
-    if (spec.joins && !joints) continue;
-    for (int part = 0; part < FamilySize(problem.parts, spec.family); ++part) {
-      model::PartBasics& basics = BasicsOf(problem.parts, spec.family, part);
-      if (!Chance(random, 0.7)) continue;
-      basics.pack = spec.family == Family::kTubing ? Uniform(random, 0.3, 6.0)
-                                                   : static_cast<double>(Pick(random, 2, 12));
-    }
-  }
-  problem.parts.tanks = problem.parts.reservoirs;
-}
 
 Problem Drawn(std::uint64_t seed, int groups) {
   constexpr optimizer::Objective kObjectives[] = {

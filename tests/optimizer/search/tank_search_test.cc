@@ -149,7 +149,7 @@ TEST(TankSearch, KindsHaveTheTanksSeriesAsTheirSource) {
     Problem problem = Drawn(500 + seed);
     problem.list = optimizer::ListOf::kKinds;
     problem.count = 6;
-    problem.per_source = 2;
+    problem.limits.per_source = 2;
     for (std::size_t i = 0; i < problem.parts.tanks.size(); ++i)
       problem.parts.tanks[i].basics.series = i % 2 == 0 ? "even" : "odd";
     const Answer answer = Recorded(problem);

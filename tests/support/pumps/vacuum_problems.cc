@@ -16,6 +16,8 @@ void Evacuate(Random& random, optimizer::ActuatorGroup& group) {
   group.pressure_max_pa = kAmbientPa + (Chance(random, 0.7) ? 1.05 : 1.3) * depth_pa;
 }
 
+}  // namespace
+
 // The same shares of the way to its end, which lies below ambient.
 model::Compressor AsVacuumPump(Random& random, model::Compressor pump) {
   const double deepest_pa = kAmbientPa + Uniform(random, 40e3, 90e3);
@@ -31,8 +33,6 @@ model::Compressor AsVacuumPump(Random& random, model::Compressor pump) {
   pump.curve.pressure_max_pa = deepest_pa;
   return pump;
 }
-
-}  // namespace
 
 optimizer::Problem EvacuatedProblem(const Draw& draw) {
   optimizer::Problem problem = RandomProblem(draw);

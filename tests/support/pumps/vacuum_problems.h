@@ -12,6 +12,9 @@ optimizer::Problem EvacuatedProblem(const Draw& draw);
 // The same with ejectors as well, of the pumps' curves, and compressed air that may have a limit.
 optimizer::Problem EjectorProblem(const Draw& draw);
 
+// A compressor's curve at the same shares of the way to its end, which lies below ambient.
+model::Compressor AsVacuumPump(Random& random, model::Compressor pump);
+
 }  // namespace plenum::test
 
 #endif  // PLENUM_TESTS_SUPPORT_PUMPS_VACUUM_PROBLEMS_H_

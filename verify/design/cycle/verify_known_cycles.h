@@ -31,6 +31,7 @@ class KnownCycles {
            other.regulators == assembly_.regulators && other.co2 == assembly_.co2 &&
            other.compressor == assembly_.compressor && other.compressors == assembly_.compressors &&
            other.at_best == assembly_.at_best &&
+           other.rail.weakest_pa == assembly_.rail.weakest_pa &&
            (!other.regulators.empty() ||
             (other.tank == assembly_.tank && other.tanks == assembly_.tanks));
   }

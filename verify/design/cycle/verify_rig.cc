@@ -49,6 +49,8 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, cons
   rig.name = group.name;
   rig.count = unit.count;
   rig.chamber = ChamberOf(group, line);
+  if (rig.chamber.low_pressure_pa > 0.0 && assembly.rail.weakest_pa > 0.0)
+    rig.chamber.exhaust_pressure_pa = assembly.rail.weakest_pa;
   std::vector<model::FlowElement> between;  // from valve to actuator
   const model::FlowElement tube =
       model::TubeElement(line.tube->inner_diameter_m, group.tube_length_m);

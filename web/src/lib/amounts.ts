@@ -101,6 +101,22 @@ export const axes: Axis[] = [
     'pressure',
   ),
   plain(
+    'rail',
+    'vacuum',
+    '',
+    'Weakest pressure of the vacuum beside a pressure supply',
+    settings((s) => (s.vacuum_stop_kpa_gauge === undefined ? null : s.vacuum_kpa_gauge!)),
+    'low',
+    'pressure',
+  ),
+  plain(
+    'rail_duty',
+    'vacuum pump duty',
+    '%',
+    'Share of the time that the vacuum pump beside a pressure supply runs',
+    settings((s) => (s.vacuum_duty === undefined ? null : 100 * s.vacuum_duty)),
+  ),
+  plain(
     'sustained',
     'sustained',
     'Hz',

@@ -21,6 +21,12 @@ const groupOf = (requirements: Requirements, name: string | null) =>
 // A design with some of its parts exchanged: for each place in the list of parts the id of another.
 export const placeOf = (row: PartRow): string => `${row.family} ${row.group ?? ''}`;
 
+// The vacuum that pumps keep beside a pressure is a setting.
+const railSettings = ({ settings }: Design) =>
+  settings.vacuum_stop_kpa_gauge === undefined
+    ? {}
+    : { vacuum_kpa_gauge: settings.vacuum_kpa_gauge };
+
 export async function exchanged(
   design: Design,
   requirements: Requirements,
@@ -47,6 +53,7 @@ export async function exchanged(
     settings: {
       source_pressure_kpa_gauge,
       ...(group_pressure_kpa_gauge && { group_pressure_kpa_gauge }),
+      ...railSettings(design),
       ...(made && { reservoir_volume_ml }),
       ...(Object.keys(ids).length === 0 && { tank_fill_kpa_gauge }),
     },
@@ -162,6 +169,7 @@ export const evaluate = (
         source_pressure_kpa_gauge: change.source_kpa,
         group_pressure_kpa_gauge: groupPressures(design, change),
         reservoir_volume_ml: change.reservoir_ml,
+        ...railSettings(design),
       },
     },
   });

@@ -3,7 +3,7 @@ import { loadPart, numberOf } from './catalogue';
 import { type Change, changed, groupPressures } from './evaluation';
 import { feedOf, feedsOf } from './pumps';
 import type { Design, Effect, Group, Part, Requirements, Response } from './types';
-import { goesBelow, hasTank, isDirect, isEjector } from './vacuum';
+import { goesBelow, hasTank, isDirect, isEjector, isVacuum } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -84,7 +84,10 @@ function sourceOf(
   own: number | null,
 ) {
   const pump =
-    rowOf(design, 'compressor') ?? rowOf(design, 'vacuum_pump') ?? rowOf(design, 'ejector');
+    rowOf(design, 'compressor') ??
+    (isVacuum(design.configuration)
+      ? (rowOf(design, 'vacuum_pump') ?? rowOf(design, 'ejector'))
+      : undefined);
   if (pump && !hasTank(design.configuration)) {
     // Pumps take in volume: the table is of 100 kPa, and holds at the same ratios of pressure.
     const share = (requirements.ambient?.pressure_kpa_abs ?? 100) / 100;
@@ -188,11 +191,11 @@ export const chamberOf = (group: Group) => ({
 });
 
 // Where an actuator rests below ambient, and what it empties into; its valve closes there.
-export const railOf = (group: Group, { supply }: Requirements) =>
+export const railOf = (group: Group, { settings }: Design) =>
   goesBelow(group)
     ? {
         low_pressure_kpa_gauge: group.low_pressure_kpa_gauge,
-        exhaust_pressure_kpa_gauge: supply?.vacuum?.mains?.pressure_kpa_gauge,
+        exhaust_pressure_kpa_gauge: settings.vacuum_kpa_gauge,
         close_at_low_pressure: true,
       }
     : {};
@@ -258,7 +261,7 @@ function simulationOf(
         count: feedOf(requirements) === 'per_actuator' ? 1 : count,
         ...chamberOf(group),
         close_at_operating_pressure: valve?.function !== '3/2',
-        ...railOf(group, requirements),
+        ...railOf(group, design),
         line: lineOf(design, group),
         valve: schedule(requirements, group, phase, cycles),
       };

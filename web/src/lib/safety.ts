@@ -35,9 +35,9 @@ function ratingOf(part: Part | undefined, field: string): string {
 function vesselNotes(design: Design, parts: Parts, ambient_kpa: number): string[] {
   const row = design.parts.find(({ family }) => family === 'reservoir');
   const size = design.settings.reservoir_volume_ml;
-  if (!row || size === null) return [];
-  if (isVacuum(design.configuration))
+  if (row && (isVacuum(design.configuration) || design.settings.vacuum_stop_kpa_gauge))
     return [`${nameOf(row)} is evacuated: it must not buckle. Do not use a thin bottle.`];
+  if (!row || size === null) return [];
   const { tank_fill_kpa_gauge, source_pressure_kpa_gauge } = design.settings;
   const held = tank_fill_kpa_gauge ?? source_pressure_kpa_gauge;
   const part = parts.get(row.id);
@@ -107,7 +107,7 @@ function electricalNotes(design: Design, parts: Parts): string[] {
       `${nameOf(battery)}: fuse it near its poles, use a protection circuit that suits its cells, and charge it with a charger made for them.`,
     );
   const pump = design.parts.find(({ family }) => ['compressor', 'vacuum_pump'].includes(family));
-  const duty = design.settings.compressor_duty;
+  const duty = design.settings.compressor_duty ?? design.settings.vacuum_duty ?? null;
   if (pump && duty !== null) {
     const limit = numberOf(parts.get(pump.id) ?? ({} as Part), 'duty_max');
     notes.push(

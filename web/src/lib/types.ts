@@ -156,6 +156,10 @@ export interface Design {
     reservoir_volume_ml: number | null;
     tank_fill_kpa_gauge?: number | null;
     pump_stop_kpa_gauge?: number; // of a pump that goes on filling the tank
+    vacuum_kpa_gauge?: number; // beside a pressure the weakest that it comes to
+    vacuum_stop_kpa_gauge?: number; // where pumps keep it beside a pressure, with the next two
+    vacuum_duty?: number;
+    vacuum_reservoir_volume_ml?: number;
     group_pressure_kpa_gauge?: number[]; // where each group has a regulator of its own
     power?: { kind: PowerKind; voltage_v: number | null } | null;
   };

@@ -6,9 +6,13 @@ export const isEvacuated = (group: Group): boolean =>
   Number(group.operating_pressure_kpa_gauge) < 0;
 export const areEvacuated = ({ actuators }: Requirements): boolean => actuators.some(isEvacuated);
 
-// Under pressure, and pulled below ambient by the wall's vacuum.
+// Under pressure, and pulled below ambient by vacuum pumps or by the wall's vacuum.
 export const goesBelow = (group: Group): boolean => Number(group.low_pressure_kpa_gauge) < 0;
 export const haveVacuumRail = ({ actuators }: Requirements): boolean => actuators.some(goesBelow);
+
+// Whether pumps keep that vacuum: the default.
+export const isRailPumped = ({ supply }: Requirements): boolean =>
+  !supply?.vacuum?.configurations?.includes('mains');
 
 // Driven by compressed air from the wall.
 export const isEjector = (configuration: Configuration): boolean =>

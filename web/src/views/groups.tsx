@@ -19,16 +19,10 @@ const blank = (n: number): Group => ({
   fall_time_s_max: 0.6,
 });
 
-// Actuators under pressure go below ambient by a vacuum from the wall, and by nothing else.
+// Actuators under pressure that stay above ambient need no vacuum; others have pumps by default.
 function fitVacuum() {
-  const { supply } = requirements.value;
-  if (areEvacuated(requirements.value)) return;
-  if (!haveVacuumRail(requirements.value)) edit(['supply', 'vacuum'], undefined);
-  else if (!supply?.vacuum)
-    edit(['supply', 'vacuum'], {
-      configurations: ['mains'],
-      mains: { pressure_kpa_gauge: -80 },
-    });
+  if (areEvacuated(requirements.value) || haveVacuumRail(requirements.value)) return;
+  edit(['supply', 'vacuum'], undefined);
 }
 
 export function Groups() {

@@ -1,7 +1,7 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
 import { edit, errorAt, numbers, requirements } from '../lib/requirements';
 import type { Configuration, PowerKind, PumpFeed, Regulation } from '../lib/types';
-import { areEvacuated, hasTank, vacuumSources } from '../lib/vacuum';
+import { areEvacuated, hasTank, haveVacuumRail, isRailPumped, vacuumSources } from '../lib/vacuum';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 
@@ -49,6 +49,7 @@ export function Supply() {
     errorAt('/supply/hold_on') ??
     errorAt('/supply/vacuum');
   const vacuum = areEvacuated(numbers.value);
+  const rail = !vacuum && haveVacuumRail(requirements.value);
   const evacuating = vacuumSources(requirements.value);
   const evacuateBy = (source: string, on: boolean) => {
     const { mains, ...rest } = supply.vacuum ?? {};
@@ -113,6 +114,24 @@ export function Supply() {
             />
           ))}
         </div>
+      )}
+      {rail && (
+        <Segmented<'pump' | 'mains'>
+          label="Vacuum beside the pressure"
+          options={[
+            { value: 'pump', label: 'a vacuum pump' },
+            { value: 'mains', label: 'from the wall' },
+          ]}
+          value={isRailPumped(requirements.value) ? 'pump' : 'mains'}
+          onChange={(source) =>
+            edit(
+              ['supply', 'vacuum'],
+              source === 'mains'
+                ? { configurations: ['mains'], mains: { pressure_kpa_gauge: -80 } }
+                : { configurations: ['pump'] },
+            )
+          }
+        />
       )}
       {wrong && <p class="error">{wrong}</p>}
       {(vacuum || chosen.includes('direct_pump')) && (
@@ -219,7 +238,7 @@ export function Supply() {
             />
           </>
         )}
-        {vacuum ? (
+        {(vacuum || (rail && isRailPumped(requirements.value))) && (
           <RequirementField
             label="Vacuum, no deeper than"
             kind="pressure"
@@ -227,7 +246,8 @@ export function Supply() {
             path={['supply', 'vacuum', 'vacuum_kpa_gauge_min']}
             range={[-100, -1]}
           />
-        ) : (
+        )}
+        {!vacuum && (
           <RequirementField
             label="Source pressure, at most"
             kind="pressure"

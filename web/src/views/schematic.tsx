@@ -5,7 +5,7 @@ import type { Design, PartRow, Requirements } from '../lib/types';
 import { shown } from '../lib/format';
 import { unitOf } from '../lib/units';
 import { feedOf } from '../lib/pumps';
-import { hasReservoir, hasTank, isDirect } from '../lib/vacuum';
+import { goesBelow, hasReservoir, hasTank, isDirect, isVacuum } from '../lib/vacuum';
 import { Actuator, place, Regulator, Reservoir, SourceSign, Valve } from './drawing';
 
 const lineChars = 22;
@@ -39,7 +39,53 @@ function Label(props: { x: number; y: number; texts: (string | undefined)[] }) {
   );
 }
 
-const at = { source: 80, ownBus: 170, store: 240, bus: 320, valve: 400, tube: 560, actuator: 720 };
+// The vacuum that valves empty into, beside a pressure: its pumps and reservoir, or the wall.
+function Rail({ design, y, valves }: { design: Design; y: number; valves: number[] }) {
+  const { vacuum_kpa_gauge, vacuum_stop_kpa_gauge } = design.settings;
+  if (vacuum_kpa_gauge === undefined) return null;
+  const pump = rowOf(design, 'vacuum_pump');
+  const reservoir = rowOf(design, 'reservoir');
+  const told = (kpa: number) => `${shown('pressure', kpa)} ${unitOf('pressure')}`;
+  return (
+    <>
+      <path class="pipe vacuum" d={`M${at.source} ${y} H${at.rail}`} />
+      {valves.map((valve) => (
+        <path key={valve} class="pipe vacuum" d={`M${at.rail} ${y} V${valve + 9} H${at.valve}`} />
+      ))}
+      <g transform={place(at.source, y)} class="sign source">
+        <SourceSign kind={pump ? 'vacuum_pump' : 'mains'} />
+      </g>
+      {reservoir && (
+        <g transform={place(at.store, y)} class="sign">
+          <Reservoir />
+        </g>
+      )}
+      <Label x={at.source} y={y + 30} texts={[pump ? partText(pump) : 'vacuum of the wall']} />
+      <Label
+        x={at.store}
+        y={y + 30}
+        texts={[
+          partText(reservoir),
+          told(vacuum_kpa_gauge) + (vacuum_stop_kpa_gauge === undefined ? '' : ' at the weakest'),
+          vacuum_stop_kpa_gauge === undefined
+            ? undefined
+            : `pump stops at ${told(vacuum_stop_kpa_gauge)}`,
+        ]}
+      />
+    </>
+  );
+}
+
+const at = {
+  rail: 360,
+  source: 80,
+  ownBus: 170,
+  store: 240,
+  bus: 320,
+  valve: 400,
+  tube: 560,
+  actuator: 720,
+};
 const groupHeight = 130;
 
 export function Schematic({
@@ -51,12 +97,15 @@ export function Schematic({
 }) {
   const groups = requirements.actuators;
   const { configuration, settings } = design;
-  const height = Math.max(260, groups.length * groupHeight + 60);
-  const middle = height / 2 - 30;
+  const below = groups.flatMap((group, i) => (goesBelow(group) ? [i] : []));
+  const railHeight = below.length > 0 ? 150 : 0;
+  const above = Math.max(260, groups.length * groupHeight + 60);
+  const height = above + railHeight;
+  const middle = above / 2 - 30;
   const yOf = (i: number) => middle + (i - (groups.length - 1) / 2) * groupHeight;
   const source =
     rowOf(design, 'compressor') ??
-    rowOf(design, 'vacuum_pump') ??
+    (isVacuum(configuration) ? rowOf(design, 'vacuum_pump') : undefined) ??
     rowOf(design, 'ejector') ??
     rowOf(design, 'cylinder') ??
     rowOf(design, 'co2');
@@ -121,6 +170,7 @@ export function Schematic({
         />
       )}
       <Label x={ownPumps ? at.store : bus} y={24} texts={joints.map(partText)} />
+      {railHeight > 0 && <Rail design={design} y={above - 40} valves={below.map(yOf)} />}
       {battery && (
         <>
           <path class="wire" d={`M${at.source} ${height - 48} V${height - 70} H${at.valve}`} />
@@ -128,7 +178,9 @@ export function Schematic({
           <Label x={at.source} y={height - 18} texts={[partText(battery)]} />
           <text x={at.valve + 4} y={height - 66} class="beside">
             to{' '}
-            {source?.family.includes('pump') || source?.family === 'compressor' ? 'pump and ' : ''}
+            {design.parts.some(({ family }) => ['compressor', 'vacuum_pump'].includes(family))
+              ? 'pump and '
+              : ''}
             valves
           </text>
         </>

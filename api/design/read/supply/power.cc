@@ -55,10 +55,10 @@ std::vector<model::Battery> WallSupplies(const std::vector<model::Compressor>& p
 const model::Compressor* PumpOf(const optimizer::Design& design,
                                 const optimizer::Problem& problem) {
   for (const optimizer::Choice& choice : design.parts) {
-    if (choice.family != optimizer::PumpFamily(design.configuration)) continue;
+    if (!optimizer::IsPump(choice.family)) continue;
     const int pump = optimizer::FindPart(problem.parts, choice.family, choice.id);
     if (pump >= 0)
-      return &optimizer::PumpsOf(problem, design.configuration)[static_cast<std::size_t>(pump)];
+      return &optimizer::PumpsIn(problem.parts, choice.family)[static_cast<std::size_t>(pump)];
   }
   return nullptr;
 }
@@ -84,8 +84,9 @@ void ReadPower(Reader& supply, optimizer::Problem& problem) {
 void ReplaceBatteries(const optimizer::Problem& problem, model::Parts& parts) {
   const Power& power = problem.power;
   if (power.kind == PowerKind::kWall)
-    parts.batteries =
-        WallSupplies(optimizer::Evacuated(problem) ? parts.vacuum_pumps : parts.compressors);
+    parts.batteries = WallSupplies(optimizer::Evacuated(problem) || optimizer::PumpsRail(problem)
+                                       ? parts.vacuum_pumps
+                                       : parts.compressors);
   if (power.kind == PowerKind::kRobot) {
     const double capacity_ah =
         power.energy_wh_max ? *power.energy_wh_max / (power.voltage_v * model::kDepthOfDischarge)
@@ -122,8 +123,9 @@ void AddOutsidePower(const optimizer::Problem& problem, optimizer::Design& desig
   row.cost_eur = 0.0;
   // In the order of a parts list: before the reservoir.
   const auto reservoir =
-      std::find_if(design.parts.begin(), design.parts.end(),
-                   [](const auto& part) { return part.family == Family::kReservoir; });
+      std::find_if(design.parts.begin(), design.parts.end(), [](const auto& part) {
+        return part.family == Family::kReservoir || part.family == Family::kVacuumReservoir;
+      });
   design.parts.insert(reservoir, std::move(row));
 }
 

@@ -15,9 +15,9 @@ namespace plenum::api {
 // to empty into. All its valves hold, and close at the low pressure, too.
 bool HasVacuumRail(const optimizer::Problem& problem);
 
-// `supply.vacuum` of such a request: the wall's vacuum alone, as deep as each low pressure. Sets
-// what their chambers empty into, and keeps of the configurations those that go with it; fails
-// where the request names others.
+// `supply.vacuum` of such a request: pumps, by default, or the wall's vacuum, as deep as each low
+// pressure. Sets what their chambers empty into at the deepest, and keeps of the configurations
+// those that go with it; fails where the request names others.
 void ReadVacuumRail(Reader& supply, optimizer::Problem& problem);
 
 // Whether a configuration may stand beside the vacuum.
@@ -29,8 +29,9 @@ bool SuitsVacuumRail(const optimizer::Problem& problem, const catalog::Part& par
 // Why it may not, as the end of a sentence that begins with its id.
 std::string WhyNotForVacuumRail(const catalog::Part& part);
 
-// Of such a design, kPa gauge.
+// Of a design on the wall's, kPa gauge; and what one on pumps may have.
 double VacuumRailKpa(const optimizer::Problem& problem);
+Range PumpedRailRange(const optimizer::Problem& problem);
 
 }  // namespace plenum::api
 

@@ -140,9 +140,12 @@ TEST(TwoRails, WhatIsNotThereIsRefusedByName) {
   EXPECT_EQ(refused("/actuators/0/low_pressure_kpa_gauge", 5), low);
   EXPECT_EQ(refused("/actuators/0/low_pressure_kpa_gauge", -90), low);  // below the wall's
   EXPECT_EQ(refused("/actuators/0/expansion_ratio", 3), low);           // no volume is left
-  EXPECT_EQ(Pointers(Without(good, "/supply/vacuum")), "/supply/vacuum ");
+  EXPECT_EQ(Pointers(Without(good, "/supply/vacuum")), "");             // pumps
   EXPECT_EQ(refused("/supply/vacuum/configurations", Json::array({"pump"})),
-            "/supply/vacuum/configurations ");
+            "/supply/vacuum/mains ");
+  for (const Json& kinds : {Json::array({"ejector"}), Json::array({"pump", "mains"})})
+    EXPECT_EQ(refused("/supply/vacuum/configurations", kinds).substr(0, 29),
+              "/supply/vacuum/configurations");
   EXPECT_EQ(Pointers(Without(good, "/supply/vacuum/mains")), "/supply/vacuum/mains ");
   EXPECT_EQ(refused("/supply/vacuum/vacuum_kpa_gauge_min", -70),
             "/supply/vacuum/mains/pressure_kpa_gauge ");
