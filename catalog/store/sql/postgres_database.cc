@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <deque>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -290,18 +291,13 @@ void PostgresStatement::Bind(int place, const SqlValue& value) {
   }
 }
 
-// Of bytea as text: \x and two hexadecimal digits a byte (bytea_output's default).
 std::string PostgresStatement::Bytes(int column) const {
-  const std::string_view text(PQgetvalue(row_.get(), 0, column),
-                              static_cast<std::size_t>(PQgetlength(row_.get(), 0, column)));
-  if (!text.starts_with("\\x")) throw SqlError("bytes are not in the form \\x");
-  std::string bytes(text.size() / 2 - 1, '\0');
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    unsigned char byte = 0;
-    std::from_chars(text.data() + 2 * i + 2, text.data() + 2 * i + 4, byte, 16);
-    bytes[i] = static_cast<char>(byte);
-  }
-  return bytes;
+  std::size_t size = 0;
+  const auto* text = reinterpret_cast<const unsigned char*>(PQgetvalue(row_.get(), 0, column));
+  const std::unique_ptr<unsigned char, decltype(&PQfreemem)> bytes(PQunescapeBytea(text, &size),
+                                                                   PQfreemem);
+  if (!bytes) throw std::bad_alloc();
+  return {reinterpret_cast<const char*>(bytes.get()), size};
 }
 
 bool PostgresStatement::Step() {

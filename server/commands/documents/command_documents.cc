@@ -185,18 +185,19 @@ Command DocumentCommand() {
   };
   return {"document",
           "Data sheets and recordings of a part, with their files",
-          "plenum catalog document list smc-s070c-6dc-32",
+          "plenum catalog document list smc-vq110u-5m-m5",
           {},
           {},
           {One("list", "The documents of a part, and which files are kept",
-               "plenum catalog document list smc-s070c-6dc-32", ListDocumentsOf, list),
+               "plenum catalog document list smc-vq110u-5m-m5", ListDocumentsOf, list),
            One("add", "Adds a document and keeps its file",
-               "plenum catalog document add my-valve sheet.pdf --link https://example.org/v.pdf",
+               "plenum catalog document add smc-vq110u-5m-m5 examples/bottle_test_simulated.csv",
                AddDocumentTo, add),
            One("get", "Writes the file of a document",
-               "plenum catalog document get my-valve 3fc9b689459d", GetDocumentOf, get),
+               "plenum catalog document get smc-vq110u-5m-m5 6cfc9a8f4cf7", GetDocumentOf, get),
            One("remove", "Takes a document off a part; its file stays for older revisions",
-               "plenum catalog document remove my-valve 3fc9b689459d", RemoveDocumentOf, remove)}};
+               "plenum catalog document remove smc-vq110u-5m-m5 6cfc9a8f4cf7", RemoveDocumentOf,
+               remove)}};
 }
 
 }  // namespace plenum::server

@@ -47,7 +47,8 @@ TEST_P(DocumentsOfParts, ComeBackByteForByte) {
   Store store = WithParts();
   for (const std::size_t size : {1u, 262'143u, 262'144u, 262'145u, 1'000'003u}) {
     const std::string bytes = AnyBytes(size, static_cast<unsigned>(size)), hash = Sha256(bytes);
-    const auto written = DocumentFiles::Add(store, "a", {"sheet.pdf", kPdf, bytes}, {"ann"});
+    const auto written =
+        DocumentFiles::Add(store, "a", {"sheet.pdf", kPdf, bytes}, {"ann", "", ""});
     ASSERT_EQ(written.status, WriteStatus::kDone);
     EXPECT_EQ(written.revision.who, "ann");
     EXPECT_EQ(written.revision.what, "add a document to a");
@@ -104,7 +105,7 @@ TEST_P(DocumentsOfParts, AreRefusedWithTheReasonAndNothingIsKept) {
   EXPECT_THAT(refusal({"s.pdf", kPdf, std::string(kFileBytesMax + 1, 'x')}),
               ElementsAre("file: must have 1 to 20971520 bytes, has 20971521"));
   EXPECT_THAT(refusal({"", kPdf, "sheet"}), ElementsAre(HasSubstr("link: is missing")));
-  EXPECT_THAT(refusal({"a\nb", kPdf, "sheet"}), ElementsAre(HasSubstr("control characters")));
+  EXPECT_THAT(refusal({"a\x01", kPdf, "sheet"}), ElementsAre(HasSubstr("control characters")));
   EXPECT_EQ(DocumentFiles::Add(store, "none", {"s.pdf", kPdf, "sheet"}).status,
             WriteStatus::kNotFound);
   EXPECT_EQ(Count("file"), 0);
@@ -122,7 +123,7 @@ TEST_P(DocumentsOfParts, OutliveUndoRemovalAndTheirPart) {
   Store store = WithParts();
   const std::int64_t added = DocumentFiles::Add(store, "a", {"s.pdf", kPdf, "s"}).revision.number;
   const std::string hash = Sha256("s");
-  const auto removed = DocumentFiles::Remove(store, "a", hash, {"bob"});
+  const auto removed = DocumentFiles::Remove(store, "a", hash, {"bob", "", ""});
   EXPECT_EQ(removed.revision.what, "remove a document of a");
   EXPECT_THAT(store.Get("a")->documents, IsEmpty());
   EXPECT_EQ(DocumentFiles::Remove(store, "a", hash).status, WriteStatus::kNotFound);
