@@ -6,6 +6,7 @@
 #include "catalog/store/backup.h"
 #include "catalog/store/content_hash.h"
 #include "catalog/store/copy.h"
+#include "catalog/store/documents/document_files.h"
 #include "catalog/store/jobs/job_store.h"
 #include "catalog/store/jobs/shared_job_store.h"
 #include "catalog/store/place.h"

@@ -21,7 +21,7 @@ using calibration::StatedModel;
 using calibration::StatedRun;
 
 constexpr double kMeasuredMax = 1e3;
-constexpr double kFactorMax = 1e6, kAnySeconds = 1e9, kAnyKpa = 1e9;
+constexpr double kStatedFactorMax = 1e6, kAnySeconds = 1e9, kAnyKpa = 1e9;
 
 Json RenderFactors(const Factors& factors) {
   Json document = Json::object();
@@ -39,7 +39,7 @@ Factors ReadFactors(Reader& owner) {
   if (!reader) return factors;
   for (std::size_t i = 0; i < factors.size(); ++i)
     factors[i] = reader->Number(calibration::Name(static_cast<calibration::Declared>(i)),
-                                Above(0, kFactorMax), 1.0);
+                                Above(0, kStatedFactorMax), 1.0);
   reader->Finish();
   return factors;
 }

@@ -6,6 +6,7 @@
 
 #include "catalog/store/connection.h"
 #include "catalog/store/sql/address.h"
+#include "catalog/store/tables/files.h"
 #include "catalog/store/tables/history.h"
 #include "catalog/store/tables/models.h"
 
@@ -33,7 +34,9 @@ constexpr Table kTables[] = {{"revision", "number"},
                              {"curve_point", "part_id, pressure_kpa_gauge"},
                              {"alias", "part_id, place"},
                              {"offer", "part_id, place"},
-                             {"document", "part_id, place"}};
+                             {"document", "part_id, place"},
+                             {"file", "sha256"},
+                             {"file_piece", "sha256, place"}};
 
 class RowWriter {
  public:
@@ -43,6 +46,7 @@ class RowWriter {
     columns_ = row.size();
     for (SqlValue& value : row) {
       if (const auto* text = std::get_if<std::string>(&value)) bytes_ += text->size();
+      if (const auto* piece = std::get_if<SqlBytes>(&value)) bytes_ += piece->bytes.size();
       values_.push_back(std::move(value));
     }
     if (values_.size() + columns_ > kValuesMost || bytes_ > kBytesMost) Flush();
@@ -109,6 +113,7 @@ void Verify(SqlDatabase& from, SqlDatabase& to) {
   if (Head(from) != Head(to)) refuse("the newest revision is another one");
   for (const std::string& fault : CheckHistory(to)) refuse(fault);
   for (const std::string& fault : CheckModels(to)) refuse(fault);
+  for (const std::string& fault : CheckFiles(to)) refuse(fault);
 }
 
 Revision CopyInto(SqlDatabase& source, const fs::path& to) {

@@ -8,11 +8,11 @@
 
 namespace plenum::catalog {
 
-// Parts, all revisions with their changes, undo, keys of requests and saved models, as they are at
-// one moment; others may read and write `from` meanwhile. `to` must hold no catalogue yet. Before
-// it is committed the copy is read back and checked: the number of rows of each table, the hash of
-// each revision recomputed from the parts and changes, and that of each model. Gives the newest
-// revision. Throws StoreError; then `to` is as it was.
+// Parts, all revisions with their changes, undo, keys of requests, saved models and files of
+// documents, as they are at one moment; others may read and write `from` meanwhile. `to` must hold
+// no catalogue yet. Before it is committed the copy is read back and checked: the number of rows of
+// each table, the hash of each revision recomputed from the parts and changes, and those of each
+// model and file. Gives the newest revision. Throws StoreError; then `to` is as it was.
 Revision CopyCatalogue(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace plenum::catalog

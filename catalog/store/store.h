@@ -24,24 +24,9 @@
 #include "catalog/store/revision.h"
 #include "catalog/store/seed/seed_plan.h"
 #include "catalog/store/store_error.h"
+#include "catalog/store/write_result.h"
 
 namespace plenum::catalog {
-
-enum class WriteStatus {
-  kDone,
-  kRepeated,    // the signature's key and request were done before; nothing was written
-  kInvalid,     // see errors
-  kExists,      // the id is taken
-  kNotFound,    // no part has the id, no revision the number
-  kChanged,     // the precondition does not hold
-  kSuperseded,  // undo: a part was changed again since; errors name them
-  kKeyReused    // the key stands for another request
-};
-struct WriteResult {
-  WriteStatus status = WriteStatus::kDone;
-  std::vector<FieldError> errors;
-  Revision revision;  // kDone, kRepeated: the one that holds the write
-};
 
 // What importing a list of parts does to each of them.
 struct ImportPlan {
@@ -60,6 +45,8 @@ using PartSource = std::function<void(const TakeEach& take)>;
 
 // Whether a write may go on, seen the part as it is stored; evaluated inside the transaction.
 using Precondition = std::function<bool(const Part&)>;
+
+struct StoreSession;
 
 class Store {
  public:
@@ -136,7 +123,8 @@ class Store {
   SeedUpdate UpdateSeed(const std::vector<Part>& parts, const std::string& who, bool dry_run);
 
   // Of a file SQLite's own integrity and foreign-key check, Validate on every row, whether the
-  // history agrees with the parts and saved models with their hashes; empty: all is well.
+  // history agrees with the parts, saved models and files of documents with their hashes; empty:
+  // all is well.
   std::vector<std::string> Check() const;
 
   // Begins to write, and takes it back: throws StoreError where a write would fail at once.
@@ -146,8 +134,8 @@ class Store {
   void TryToWrite(Try how = Try::kWrite);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  friend struct DocumentFiles;  // documents/document_files.h
+  std::unique_ptr<StoreSession> impl_;
 };
 
 }  // namespace plenum::catalog

@@ -22,6 +22,7 @@ api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept) {
                       {"large_requests_waiting_max", kLargeWaitingMax},
                       {"large_requests_wait_seconds", kLargeWaitSeconds},
                       {"import_bytes_max", kImportBytesMax},
+                      {"document_bytes_max", kDocumentBytesMax},
                       {"large_imports_max", kLargeImportsMax},
                       {"import_rows_max", kImportRowsMax},
                       {"import_columns_max", catalog::kCsvColumnsMax},

@@ -43,6 +43,8 @@ inline constexpr int kLargeWaitingMax = 64;
 inline constexpr int kLargeWaitSeconds = 10;
 // A table of parts may be longer than other bodies, one such at a time.
 inline constexpr std::size_t kImportBytesMax = 32 << 20;
+// So may the file of a document of a part; both have their turn together.
+inline constexpr std::size_t kDocumentBytesMax = catalog::kFileBytesMax;
 inline constexpr int kLargeImportsMax = 1;
 inline constexpr std::size_t kImportRowsMax = 150'000;
 // Requests and jobs that wait for their turn at the catalogue's file.

@@ -12,6 +12,7 @@
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
+#include "server/commands/documents/command_documents.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/files/input.h"
 #include "server/commands/output.h"
@@ -363,11 +364,13 @@ Command CatalogCommand() {
              "plenum catalog import battery packs.csv --dry-run", Answered<Import>, ImportOptions),
        Below("export", "Parts of a family as CSV", "plenum catalog export battery > packs.csv",
              Answered<Export>, family),
+       DocumentCommand(),
        Below("backup", "Copies the catalogue while it is in use", "plenum catalog backup copy.db",
              Answered<BackupCatalog>, FileTable("The copy; replaced if there is one")),
        Below("restore", "Puts parts and history of a copy in place",
              "plenum catalog restore copy.db", Answered<RestoreCatalog>, FileTable("The copy")),
-       Below("copy", "Copies all revisions, models and tokens into another store",
+       Below("copy",
+             "Copies all revisions, models, files of documents and tokens into another store",
              "plenum catalog copy catalog.db all-of-it.db", Answered<CopyCatalog>, CopyTable),
        Below("update", "Takes over what the installed catalogue has newer; your own rows stay",
              "plenum catalog update --from copy.db --dry-run", Answered<UpdateCatalog>,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/documents/part_files.h"
 #include "api/catalogue/stores.h"
 #include "api/json/reader.h"
 #include "api/measure/diagnose_request.h"
@@ -94,6 +95,16 @@ void SaveModel(const DiagnoseOptions& options, const std::optional<api::SavedMod
                static_cast<long long>(saved.version));
 }
 
+// Of the recordings that the part refers to since it was saved.
+void KeepRecordings(catalog::Store& store, const DiagnoseOptions& options) {
+  for (const std::string& file : options.files) {
+    const auto kept = catalog::DocumentFiles::Add(
+        store, options.save_part, {"", api::MediaTypeOf(file), ReadText(file)}, CommandSignature());
+    for (const catalog::FieldError& error : kept.errors)
+      Tell(file + ": the file is not kept: " + error.detail);
+  }
+}
+
 int Diagnose(const DiagnoseOptions& options) {
   CatchInterrupts();
   if (!options.save.empty()) {  // before the long work
@@ -115,6 +126,7 @@ int Diagnose(const DiagnoseOptions& options) {
     answer["saved_part"] =
         api::SavePart(store, options.save_part, answer, request.provenance.files,
                       options.save_part_anyway, CommandSignature(), options.specimen);
+    if (!answer["saved_part"]["revision"].is_null()) KeepRecordings(store, options);
   }
   Print(options.json ? Dump(answer) + "\n"
                      : RecordingText(answer) + MeasuredText(answer) + DiagnosisText(answer));

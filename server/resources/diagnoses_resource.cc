@@ -159,16 +159,33 @@ void Save(SharedCatalog& catalog, const std::string& name, const std::string& wh
   }
 }
 
-// Puts what was written into the part, or why nothing was, into the answer.
-void SavePart(SharedCatalog& catalog, const Names& names, const std::string& who,
+// Of a recording that the part refers to.
+void KeepRecording(SharedCatalog& catalog, const std::string& id, const std::string& recording,
+                   const catalog::Signature& by) {
+  try {
+    catalog.With(
+        [&](catalog::Store& store) {
+          return catalog::DocumentFiles::Add(store, id, {"", "application/json", recording}, by);
+        },
+        kSavePatience);
+  } catch (const catalog::StoreError& error) {
+    Log({{"level", "error"}, {"part", id}, {"recording_not_kept", error.what()}});
+  }
+}
+
+// Puts what was written into the part, or why nothing was, into the answer; keeps the recording.
+void SavePart(SharedCatalog& catalog, const Names& names, const catalog::JobOrder& order,
               const std::vector<api::Provenance::File>& files, api::Json& answer) {
+  const catalog::Signature by{.who = order.by.who, .key = "", .request = ""};
   try {
     answer["saved_part"] = catalog.With(
         [&](catalog::Store& store) {
-          return api::SavePart(store, names.save_part, answer, files, names.save_part_anyway,
-                               {.who = who, .key = "", .request = ""}, names.specimen);
+          return api::SavePart(store, names.save_part, answer, files, names.save_part_anyway, by,
+                               names.specimen);
         },
         kSavePatience);
+    if (!answer["saved_part"].at("revision").is_null())
+      KeepRecording(catalog, names.save_part, order.request, by);
   } catch (const catalog::StoreError& error) {
     Log({{"level", "error"}, {"part", names.save_part}, {"not_saved", error.what()}});
     answer["saved_part"] = {
@@ -220,7 +237,7 @@ Work DiagnosisWork(SharedCatalog& catalog) {
     if (!names.save.empty())
       Save(catalog, names.save, order.by.who, diagnosis.revision, diagnosis.answer);
     if (!names.save_part.empty())
-      SavePart(catalog, names, order.by.who, request.diagnosis.provenance.files, diagnosis.answer);
+      SavePart(catalog, names, order, request.diagnosis.provenance.files, diagnosis.answer);
     // The last progress, which a list of jobs shows in place of the answer.
     auto outcome = report_of(1.0, "ended");
     outcome["outcome"] = diagnosis.answer.at("verdict");

@@ -1,7 +1,5 @@
 #include "server/resources/openapi.h"
 
-#include <map>
-#include <stdexcept>
 #include <string>
 
 #include "api/catalogue/table_reading.h"
@@ -12,6 +10,8 @@
 #include "api/protocol/test_sensor.h"
 #include "server/call/lower_case.h"
 #include "server/resources/schemas/diagnosis_schemas.h"
+#include "server/resources/schemas/document_schemas.h"
+#include "server/resources/schemas/operations.h"
 #include "server/resources/schemas/schema_forms.h"
 #include "server/resources/schemas/sweep_schemas.h"
 
@@ -20,130 +20,7 @@ namespace {
 
 using api::Json;
 
-constexpr char kJson[] = "application/json", kCsv[] = "text/csv",
-               kBytes[] = "application/octet-stream", kEvents[] = "text/event-stream";
-
-// What an operation takes and gives beyond what its route says.
-struct Operation {
-  std::vector<std::string> parameters = {};  // names in the components
-  std::string body = {};                     // schema of the request; "csv" for rows of parts
-  struct Answer {
-    int status;
-    std::string schema;  // in the components; empty: no body
-    const char* media = kJson;
-  };
-  std::vector<Answer> answers = {};
-  std::vector<int> problems = {};
-};
-
-const std::vector<std::string> kJobPost = {"validate_only", "priority", "Prefer", "Idempotency-Key",
-                                           "From"};
-
-const std::map<std::string, Operation>& Operations() {
-  static const std::vector<std::string> kPage = {"limit", "cursor"};
-  static const std::vector<std::string> kSensor = {"sensor_noise_kpa", "sensor_resolution_kpa",
-                                                   "sampling_hz", "bottle_l", "bottle_uncertainty"};
-  static const std::vector<std::string> kWrite = {"Idempotency-Key", "From"};
-  static const std::map<std::string, Operation> kOperations = {
-      {"POST /v1/designs",
-       {kJobPost,
-        "Requirements",
-        {{200, "DesignsOrValid"}, {202, "JobAccepted"}},
-        {400, 422, 429}}},
-      {"POST /v1/diagnoses",
-       {{"priority", "Prefer", "Idempotency-Key", "From"},
-        "Measurement",
-        {{200, "Diagnosis"}, {202, "JobAccepted"}},
-        {400, 422, 429}}},
-      {"POST /v1/simulations",
-       {{}, "SimulationOrCurves", {{200, "ResponseOrCurves"}}, {400, 422, 429}}},
-      {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
-      {"POST /v1/fmus", {{}, "Evaluation", {{200, "Unit", kBytes}}, {400, 422, 429}}},
-      {"GET /v1/designs/{id}/{rank}/fmu",
-       {{"rank"}, "", {{200, "Unit", kBytes}}, {404, 409, 422, 429}}},
-      {"POST /v1/measurements", {{}, "Recording", {{200, "Recorded"}}, {400, 422, 429}}},
-      {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
-      {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
-      {"POST /v1/parts", {kWrite, "Part", {{201, "StoredPart"}}, {400, 409, 422}}},
-      {"GET /v1/parts/export", {{"family"}, "", {{200, "Csv", kCsv}}, {422}}},
-      {"POST /v1/parts/import",
-       {{"family", "dry_run", "encoding", "delimiter", "decimal", "header_row", "column", "set",
-         "Idempotency-Key", "From"},
-        "csv",
-        {{200, "Import"}},
-        {422}}},
-      {"GET /v1/parts/compare", {{"ids"}, "", {{200, "Comparison"}}, {404, 422}}},
-      {"GET /v1/parts/check", {{}, "", {{200, "CatalogCheck"}}, {422}}},
-      {"GET /v1/parts/{id}",
-       {{"revision", "If-None-Match"}, "", {{200, "StoredPart"}, {304, ""}}, {404, 422}}},
-      {"PUT /v1/parts/{id}",
-       {{"If-Match", "From"}, "Part", {{200, "StoredPart"}}, {400, 404, 412, 422}}},
-      {"DELETE /v1/parts/{id}", {{"If-Match", "From"}, "", {{204, ""}}, {404, 412}}},
-      {"GET /v1/parts/{id}/protocol", {kSensor, "", {{200, "Protocol"}}, {404, 422}}},
-      {"GET /v1/parts/{id}/history", {kPage, "", {{200, "History"}}, {404, 422}}},
-      {"GET /v1/families", {{}, "", {{200, "Families"}}, {}}},
-      {"GET /v1/queue", {{}, "", {{200, "Queue"}}, {}}},
-      {"GET /v1/limits", {{}, "", {{200, "Limits"}}, {}}},
-      {"POST /v1/catalog/update", {{"dry_run", "From"}, "", {{200, "SeedUpdate"}}, {404, 422}}},
-      {"GET /v1/revisions", {kPage, "", {{200, "Revisions"}}, {422}}},
-      {"GET /v1/revisions/{id}", {kPage, "", {{200, "RevisionWithChanges"}}, {404, 422}}},
-      {"POST /v1/revisions/{id}/undo", {kWrite, "", {{200, "Undone"}}, {404, 409, 422}}},
-      {"GET /v1/models", {{}, "", {{200, "Models"}}, {}}},
-      {"POST /v1/models", {kWrite, "NamedModel", {{201, "ModelRevision"}}, {400, 422}}},
-      {"GET /v1/models/{id}", {{}, "", {{200, "ModelVersions"}}, {404}}},
-      {"GET /v1", {{}, "", {{200, "RouteTable"}}, {}}},
-      {"GET /healthz", {{}, "", {{200, "Health"}}, {}}},
-      {"GET /readyz", {{}, "", {{200, "Readiness"}}, {503}}},
-      {"GET /metrics", {{}, "", {{200, "Text", "text/plain"}}, {}}},
-      {"GET /openapi.json", {{}, "", {{200, "Anything"}}, {}}},
-  };
-  return kOperations;
-}
-
-const std::map<std::string, Operation>& SweepOperations() {
-  static const std::map<std::string, Operation> kOperations = {
-      {"POST /v1/sweeps",
-       {kJobPost, "Sweep", {{200, "SweepTableOrValid"}, {202, "SweepAccepted"}}, {400, 422, 429}}},
-      {"GET /v1/sweeps", {{}, "", {{200, "Sweeps"}}, {}}},
-      {"GET /v1/sweeps/{id}", {{}, "", {{200, "SweepWithJobs"}}, {404}}},
-      {"DELETE /v1/sweeps/{id}", {{}, "", {{200, "SweepAccepted"}}, {404}}},
-      {"GET /v1/sweeps/{id}/table",
-       {{"format"}, "", {{200, "SweepTable"}, {200, "Csv", kCsv}}, {404, 422}}},
-  };
-  return kOperations;
-}
-
-// Of what people read in a browser.
-const std::map<std::string, Operation>& PageOperations() {
-  static const std::map<std::string, Operation> kOperations = {
-      {"GET /openapi", {{}, "", {{200, "Text", "text/html"}}, {}}},
-      {"GET /docs", {{}, "", {{308, ""}}, {}}},
-      {"GET /docs/{path}",
-       {{"path", "If-None-Match"}, "", {{200, "Text", "*/*"}, {304, ""}}, {404}}},
-      {"GET /", {{"If-None-Match"}, "", {{200, "Text", "text/html"}, {304, ""}}, {}}},
-      {"GET /assets/{id}", {{}, "", {{200, "Text", "*/*"}}, {404}}},
-  };
-  return kOperations;
-}
-
-// Those of both kinds of jobs are alike.
-const Operation& OperationOf(const Route& route) {
-  static const std::map<std::string, Operation> kJobs = {
-      {"GET ", {{}, "", {{200, "Jobs"}}, {}}},
-      {"GET /{id}", {{"If-None-Match"}, "", {{200, "Job"}, {304, ""}}, {404}}},
-      {"DELETE /{id}", {{}, "", {{200, "JobAccepted"}}, {404}}},
-      {"POST /{id}/again", {{}, "", {{202, "JobAccepted"}}, {404, 409, 429}}},
-      {"GET /{id}/events", {{}, "", {{200, "Text", kEvents}}, {404, 429}}},
-  };
-  for (const auto* operations : {&Operations(), &SweepOperations(), &PageOperations()})
-    if (const auto found = operations->find(route.method + " " + route.path);
-        found != operations->end())
-      return found->second;
-  for (const std::string path : {"/v1/designs", "/v1/diagnoses"})
-    if (route.path.starts_with(path))
-      return kJobs.at(route.method + " " + route.path.substr(path.size()));
-  throw std::logic_error("no description of " + route.method + " " + route.path);
-}
+constexpr char kJson[] = "application/json", kCsv[] = "text/csv";
 
 Json Parameter(const char* place, const char* name, Json schema, const char* description) {
   return {
@@ -166,6 +43,9 @@ Json Parameters() {
   return {
       {"id", InPath("id", text, "of the part, job or sweep")},
       {"rank", InPath("rank", {{"type", "integer"}, {"minimum", 1}}, "of the design")},
+      {"sha256_of", InPath("sha256", text, "of the file, 64 hexadecimal digits")},
+      {"link", Query("link", text, "where the document was found, or a file name")},
+      {"sha256", Query("sha256", text, "that the file must have")},
       {"path", InPath("path", text, "of a file of the documentation; empty for its first page")},
       {"limit", Query("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
                       "entries of a page")},
@@ -312,6 +192,7 @@ Json Schemas() {
   schemas["Evaluation"]["properties"]["beside"] = api::DescribeGivenDesign();
   schemas["Evaluation"]["additionalProperties"] = false;
   schemas.update(SweepSchemas());
+  schemas.update(DocumentSchemas());
   schemas["NamedModel"] = Object(
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
   schemas["NamedModel"]["additionalProperties"] = false;
@@ -340,6 +221,7 @@ Json ExampleOf(const std::string& schema) {
 }
 
 Json RequestBody(const std::string& schema) {
+  if (schema == "file") return DocumentBody();
   if (schema == "csv")
     return {{"required", true}, {"content", {{kCsv, {{"schema", Ref("schemas", "Csv")}}}}}};
   return {
@@ -348,7 +230,7 @@ Json RequestBody(const std::string& schema) {
 }
 
 Json Render(const Route& route) {
-  const Operation& operation = OperationOf(route);
+  const Operation& operation = OperationOf(route.method, route.path);
   Json json = {{"summary", route.summary}, {"parameters", Json::array()}};
   if (route.path.find("{id}") != std::string::npos)
     json["parameters"].push_back(Ref("parameters", "id"));

@@ -18,6 +18,7 @@
 #include "server/call/service_limits.h"
 #include "server/resources/designs_resource.h"
 #include "server/resources/diagnoses_resource.h"
+#include "server/resources/documents/documents_resource.h"
 #include "server/resources/history_resource.h"
 #include "server/resources/models_resource.h"
 #include "server/resources/openapi.h"
@@ -289,6 +290,7 @@ std::vector<Route> Routes(const Services& services) {
        }},
   };
   AddManyPartsRoutes(catalog, routes);
+  for (Route& route : DocumentRoutes(catalog)) routes.push_back(std::move(route));
   AddUnits(catalog, design_jobs, routes);
   AddRecordings(routes);
   AddCatalogUpdate(services, routes);

@@ -90,7 +90,7 @@ void ClientConnection::Write(std::string bytes) {
 
 std::size_t ClientConnection::held_bytes() const {
   constexpr std::size_t kSmall = 4 << 10;  // not worth counting
-  if (arriving.large_turn) return 0;       // a large table has a limit of its own
+  if (arriving.large_turn) return 0;       // a large table or file has a limit of its own
   std::size_t held = waiting.held_bytes + (request ? request->body.size() : 0);
   if (!answer.pending()) held += arriving.bytes.size();
   return held <= kSmall ? 0 : held;

@@ -51,7 +51,7 @@ struct Arriving {
   RequestFrame frame;                // of the first
   bool skipped_line = false;         // an empty one before it
   bool examined = false;             // its head, while its body is to come
-  std::shared_ptr<void> large_turn;  // while its body is a large table
+  std::shared_ptr<void> large_turn;  // while its body is a large table or file
 };
 
 // A request that waits without a thread.

@@ -260,7 +260,8 @@ Connections::Next Connections::AwaitBody(ClientConnection& connection) {
   if (frame.is_large_import() && !connection.arriving.large_turn) {
     connection.arriving.large_turn = large_imports_.Enter();
     if (!connection.arriving.large_turn) {
-      Refuse(connection, {429, "large_imports_max", "another large table is under way"});
+      Refuse(connection,
+             {429, "large_imports_max", "another large table or document is under way"});
       return Next::kGoOn;
     }
     connection.arriving.bytes.reserve(frame.size());

@@ -9,6 +9,24 @@
 #include "server/wire/grammar.h"
 
 namespace plenum::server {
+namespace {
+
+struct BodyLimit {
+  std::size_t bytes;
+  const char *name, *detail;
+};
+
+// Of a body whose length is said.
+BodyLimit LimitOf(const RequestHead& head) {
+  const std::string_view path = head.path;
+  if (head.method == "POST" && path == "/v1/parts/import")
+    return {kImportBytesMax, "import_bytes_max", "the table is too large; send it in parts"};
+  if (head.method == "POST" && path.starts_with("/v1/parts/") && path.ends_with("/documents"))
+    return {kDocumentBytesMax, "document_bytes_max", "the file of a document has at most 20 MiB"};
+  return {kBodyBytesMax, "body_bytes_max", "the body is too large"};
+}
+
+}  // namespace
 
 RequestFrame::State RequestFrame::Refuse(int status, std::string limit, std::string detail) {
   return Refuse({status, std::move(limit), std::move(detail)});
@@ -102,12 +120,8 @@ RequestFrame::State RequestFrame::ReadContentLength(const std::string& text) {
     return Refuse(400, "", "Content-Length must be one whole number");
   const std::size_t length = std::strtoull(text.c_str(), nullptr, 10);
   end_ = head_size_ + length;
-  const bool is_import = head_.method == "POST" && head_.path == "/v1/parts/import";
-  if (is_import && length > kImportBytesMax)
-    return Refuse(413, "import_bytes_max", "the table is too large; send it in parts");
-  if (!is_import && length > kBodyBytesMax)
-    return Refuse(413, "body_bytes_max", "the body is too large");
-  return state_;
+  const BodyLimit limit = LimitOf(head_);
+  return length > limit.bytes ? Refuse(413, limit.name, limit.detail) : state_;
 }
 
 bool RequestFrame::is_large_import() const {

@@ -28,7 +28,8 @@ class RequestFrame {
   // Of the line and fields with the empty line, once they have come, and what they say.
   std::size_t head_size() const { return head_size_; }
   const RequestHead& head() const { return head_; }
-  // Whether the body is larger than all but a table of parts may be: kBody or kComplete.
+  // Whether the body is larger than all but a table of parts or the file of a document may be:
+  // kBody or kComplete.
   bool is_large_import() const;
   // Takes a complete request from the beginning of `bytes`: what stands before the body, and the
   // body with its chunks joined.

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <deque>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -21,7 +22,7 @@ constexpr SqlWords kWords = {
 constexpr char kWriteLock[] = "SELECT pg_advisory_xact_lock(1886154349)";
 constexpr std::chrono::milliseconds kPatience{10'000};
 // Types of columns (pg_type.dat).
-constexpr Oid kInt8 = 20, kInt4 = 23, kFloat8 = 701;
+constexpr Oid kBytea = 17, kInt8 = 20, kInt4 = 23, kFloat8 = 701;
 constexpr std::size_t kMessageMax = 300;  // characters
 
 using Result = std::unique_ptr<PGresult, decltype(&PQclear)>;
@@ -47,6 +48,12 @@ constexpr std::array<const char*, 9> kNames = {
     "connect_timeout",           "keepalives_idle",  "keepalives_interval",
     "keepalives_count",          "tcp_user_timeout", "client_encoding",
     "fallback_application_name", "dbname",           nullptr};
+
+// Values of a statement as libpq takes them.
+struct SentValues {
+  std::vector<const char*> texts;
+  std::vector<int> lengths, formats;  // which count for bytes alone
+};
 
 class PostgresStatement;
 
@@ -112,8 +119,7 @@ class PostgresDatabase : public SqlDatabase {
   std::vector<std::string> CheckStorage() override { return {}; }  // pg_amcheck does
 
   // Of the statement that sends.
-  void Send(PostgresStatement& statement, const std::string& sql,
-            const std::vector<const char*>& values);
+  void Send(PostgresStatement& statement, const std::string& sql, const SentValues& values);
   Result Next() { return {PQgetResult(session_.get()), PQclear}; }
   void Check(const Result& result) const;
   void Forget(const PostgresStatement& statement) {
@@ -159,6 +165,7 @@ class PostgresStatement : public SqlStatement {
     const Oid type = PQftype(row_.get(), column);
     if (type == kInt8 || type == kInt4) return Integer(column);
     if (type == kFloat8) return Real(column);
+    if (type == kBytea) return SqlBytes{Bytes(column)};
     return Text(column);
   }
   bool IsNull(int column) const override { return PQgetisnull(row_.get(), 0, column) != 0; }
@@ -166,6 +173,7 @@ class PostgresStatement : public SqlStatement {
     return {PQgetvalue(row_.get(), 0, column),
             static_cast<std::size_t>(PQgetlength(row_.get(), 0, column))};
   }
+  std::string Bytes(int column) const override;
   std::int64_t Integer(int column) const override { return Number<std::int64_t>(column); }
   double Real(int column) const override {
     if (IsNull(column) || PQftype(row_.get(), column) != kFloat8)
@@ -187,7 +195,11 @@ class PostgresStatement : public SqlStatement {
 
   PostgresDatabase& db_;
   const std::string sql_;
-  std::vector<std::optional<std::string>> values_;
+  struct Bound {
+    std::string text;
+    bool is_binary = false;
+  };
+  std::vector<std::optional<Bound>> values_;
   bool sent_ = false, reading_ = false;
   Result row_{nullptr, PQclear};
   std::deque<Result> rest_;
@@ -238,10 +250,11 @@ void PostgresDatabase::Finish() {
 }
 
 void PostgresDatabase::Send(PostgresStatement& statement, const std::string& sql,
-                            const std::vector<const char*>& values) {
+                            const SentValues& values) {
   Finish();
-  const int sent = PQsendQueryParams(session_.get(), sql.c_str(), static_cast<int>(values.size()),
-                                     nullptr, values.data(), nullptr, nullptr, 0);
+  const int sent =
+      PQsendQueryParams(session_.get(), sql.c_str(), static_cast<int>(values.texts.size()), nullptr,
+                        values.texts.data(), values.lengths.data(), values.formats.data(), 0);
   if (sent == 0 || PQsetSingleRowMode(session_.get()) == 0)
     throw SqlError("the connection to the server was lost", StoreFault::kAway, true);
   reading_ = &statement;
@@ -261,26 +274,40 @@ void PostgresDatabase::Check(const Result& result) const {
 
 void PostgresStatement::Bind(int place, const SqlValue& value) {
   if (values_.size() < static_cast<std::size_t>(place)) values_.resize(place);
-  std::optional<std::string>& bound = values_[place - 1];
+  std::optional<Bound>& bound = values_[place - 1];
   if (const auto* text = std::get_if<std::string>(&value)) {
     if (text->find('\0') != std::string::npos)
       throw SqlError("a text holds the character NUL, which PostgreSQL cannot keep");
-    bound = *text;
+    bound = {*text};
   } else if (const auto* real = std::get_if<double>(&value)) {
     char digits[32];
-    bound = std::string(digits, std::to_chars(digits, digits + sizeof digits, *real).ptr);
+    bound = {std::string(digits, std::to_chars(digits, digits + sizeof digits, *real).ptr)};
   } else if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-    bound = std::to_string(*integer);
+    bound = {std::to_string(*integer)};
+  } else if (const auto* bytes = std::get_if<SqlBytes>(&value)) {
+    bound = {bytes->bytes, true};
   } else {
     bound.reset();
   }
 }
 
+std::string PostgresStatement::Bytes(int column) const {
+  std::size_t size = 0;
+  const auto* text = reinterpret_cast<const unsigned char*>(PQgetvalue(row_.get(), 0, column));
+  const std::unique_ptr<unsigned char, decltype(&PQfreemem)> bytes(PQunescapeBytea(text, &size),
+                                                                   PQfreemem);
+  if (!bytes) throw std::bad_alloc();
+  return {reinterpret_cast<const char*>(bytes.get()), size};
+}
+
 bool PostgresStatement::Step() {
   if (!sent_) {
-    std::vector<const char*> values;
-    values.reserve(values_.size());
-    for (const auto& value : values_) values.push_back(value ? value->c_str() : nullptr);
+    SentValues values;
+    for (const auto& value : values_) {
+      values.texts.push_back(value ? value->text.c_str() : nullptr);
+      values.lengths.push_back(value ? static_cast<int>(value->text.size()) : 0);
+      values.formats.push_back(value && value->is_binary ? 1 : 0);
+    }
     db_.Send(*this, sql_, values);
     sent_ = reading_ = true;
   }

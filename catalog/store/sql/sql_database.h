@@ -18,7 +18,11 @@
 
 namespace plenum::catalog {
 
-using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;  // first: NULL
+struct SqlBytes {  // any bytes, where a text is UTF-8
+  std::string bytes;
+};
+using SqlValue =
+    std::variant<std::monostate, std::int64_t, double, std::string, SqlBytes>;  // first: NULL
 
 // A statement with its values and, after Step, one row of its result. Places of values count from
 // 1, columns from 0. A value stays bound until another is.
@@ -34,6 +38,7 @@ class SqlStatement {
   virtual SqlValue Get(int column) const = 0;
   virtual bool IsNull(int column) const = 0;
   virtual std::string Text(int column) const = 0;  // empty for NULL
+  virtual std::string Bytes(int column) const = 0;
   virtual std::int64_t Integer(int column) const = 0;
   virtual double Real(int column) const = 0;  // throws where the column holds no real
 };
@@ -89,6 +94,7 @@ class SqlTransaction {
 
 inline SqlValue ToSqlValue(const std::string& text) { return text; }
 inline SqlValue ToSqlValue(const char* text) { return std::string(text); }
+inline SqlValue ToSqlValue(const SqlBytes& bytes) { return bytes; }
 inline SqlValue ToSqlValue(double value) { return value; }
 inline SqlValue ToSqlValue(std::int64_t value) { return value; }
 inline SqlValue ToSqlValue(int value) { return std::int64_t{value}; }

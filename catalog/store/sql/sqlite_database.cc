@@ -33,6 +33,8 @@ class SqliteStatement : public SqlStatement {
         statement_.bind(place, *real);
       else if (const auto* integer = std::get_if<std::int64_t>(&value))
         statement_.bind(place, *integer);
+      else if (const auto* bytes = std::get_if<SqlBytes>(&value))
+        statement_.bind(place, bytes->bytes.data(), static_cast<int>(bytes->bytes.size()));
       else
         statement_.bind(place);
     });
@@ -50,10 +52,12 @@ class SqliteStatement : public SqlStatement {
     if (cell.isNull()) return {};
     if (cell.isInteger()) return cell.getInt64();
     if (cell.isFloat()) return cell.getDouble();
+    if (cell.isBlob()) return SqlBytes{cell.getString()};
     return cell.getString();
   }
   bool IsNull(int column) const override { return statement_.getColumn(column).isNull(); }
   std::string Text(int column) const override { return statement_.getColumn(column).getString(); }
+  std::string Bytes(int column) const override { return Text(column); }
   std::int64_t Integer(int column) const override {
     return statement_.getColumn(column).getInt64();
   }

@@ -13,6 +13,8 @@
 #include <memory>
 
 #include "catalog/store/backup.h"
+#include "catalog/store/content_hash.h"
+#include "catalog/store/documents/document_files.h"
 #include "tests/catalog/folder.h"
 #include "tests/catalog/samples.h"
 #include "tests/support/places.h"
@@ -159,6 +161,19 @@ TEST_F(Crash, ImportingAndUndoingAreAllOrNothing) {
   }));
   Write().Import(EachOf(parts), {});
   ExpectAllOrNothing(Writing([](Store& store) { store.Undo(store.Head().number, {}); }));
+}
+
+// Of a file that is kept its part tells, and of a part that refers to it the file is whole.
+TEST_F(Crash, AddingADocumentIsAllOrNothing) {
+  Write().Add(Reservoir("a"));
+  const std::string bytes(700'000, 'd');
+  ExpectAllOrNothing(Writing([&](Store& store) {
+    DocumentFiles::Add(store, "a", {"sheet.pdf", "application/pdf", bytes});
+  }));
+  const Store store = Read();
+  const auto kept = DocumentFiles::Content(store, Sha256(bytes));
+  EXPECT_EQ(store.Get("a")->documents.empty(), !kept);
+  EXPECT_TRUE(!kept || kept == bytes);
 }
 
 TEST_F(Crash, RestoringIsAllOrNothing) {

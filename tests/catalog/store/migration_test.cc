@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "catalog/store/content_hash.h"
+#include "catalog/store/documents/document_files.h"
 #include "catalog/store/sql/migrations.h"
 #include "tests/catalog/folder.h"
 #include "tests/catalog/samples.h"
@@ -87,6 +89,20 @@ TEST_F(Migrating, AFileOfSchema3KeepsEveryHashAndItsModels) {
   EXPECT_THAT(mine.aliases, IsEmpty());
   EXPECT_THAT(mine.offers, IsEmpty());
   EXPECT_THAT(mine.documents, IsEmpty());
+}
+
+TEST_F(Migrating, AFileOfSchema4KeepsEveryHashAndTakesTheFilesOfItsDocuments) {
+  MakeOld(4);
+  const std::string head = Text("hash FROM revision ORDER BY number DESC LIMIT 1");
+  Store store = Write();
+  EXPECT_EQ(store.Head().hash, head);
+  const Part part = store.Get("documented").value();
+  EXPECT_THAT(part.documents, ElementsAre(Document{"https://example.org/d.pdf", ""},
+                                          Document{"recording.csv", Sha256("abc")}));
+  ASSERT_EQ(DocumentFiles::Add(store, part.id, {"", "text/csv", "abc"}).status, WriteStatus::kDone);
+  EXPECT_EQ(store.Head().hash, head);
+  EXPECT_EQ(DocumentFiles::Content(store, Sha256("abc")), "abc");
+  EXPECT_THAT(store.Check(), IsEmpty());
 }
 
 TEST_F(Migrating, AMigratedPartTakesTheNewFieldsAndGivesThemBack) {

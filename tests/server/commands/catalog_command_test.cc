@@ -54,6 +54,39 @@ TEST(CatalogCommand, ARefusedUndoNamesTwentyParts) {
   EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 21);
 }
 
+TEST(CatalogCommand, KeepsTheFilesOfDocuments) {
+  const Workbench bench;
+  ASSERT_EQ(bench.Run("catalog add -", NewFitting("f").dump()).status, 0);
+  std::string bytes(300'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * i >> 3);
+  bench.Write("sheet.pdf", bytes);
+  const std::string hash = catalog::Sha256(bytes);
+  const auto refused =
+      bench.Run("catalog document add f sheet.pdf --sha256 " + std::string(64, '0'));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("must be that of the file, " + hash));
+  ASSERT_EQ(bench.Run("catalog document add f sheet.pdf").status, 0);
+  const Json listed = Document(bench.Run("catalog document list f --json").out)["documents"][0];
+  EXPECT_EQ(listed["link"], "sheet.pdf");
+  EXPECT_EQ(listed["file"]["media_type"], "application/pdf");
+  EXPECT_THAT(bench.Run("catalog document list f").out, HasSubstr(hash.substr(0, 12)));
+  EXPECT_EQ(bench.Run("catalog document get f " + hash.substr(0, 9) + " --out -").out, bytes);
+  EXPECT_THAT(bench.Run("catalog document get f " + hash).err, HasSubstr("is there already"));
+  EXPECT_EQ(bench.Run("catalog document get f ab --out x.pdf").status, 2);
+  EXPECT_EQ(bench.Run("catalog document get none ab --out x.pdf").status, 2);
+  ASSERT_EQ(bench.Run("catalog copy catalog.db copied.db").status, 0);
+  ASSERT_EQ(
+      bench.Run("catalog document get f " + hash + " --out again.pdf --catalog copied.db").status,
+      0);
+  EXPECT_TRUE(ReadAll(bench.Path("again.pdf")) == bytes);
+  ASSERT_EQ(bench.Run("catalog document remove f " + hash).status, 0);
+  EXPECT_THAT(bench.Run("catalog document list f").out, HasSubstr("has no documents"));
+  bench.Write("huge.pdf", std::string((20 << 20) + 1, 'x'));
+  const auto large = bench.Run("catalog document add f huge.pdf");
+  EXPECT_EQ(large.status, 2);
+  EXPECT_THAT(large.err, HasSubstr("must have 1 to 20971520 bytes, has 20971521"));
+}
+
 TEST(CatalogCommand, ShowsHistoryAndTakesChangesBack) {
   const Workbench bench;
   ASSERT_EQ(bench.Run("catalog add -", NewFitting("f").dump()).status, 0);

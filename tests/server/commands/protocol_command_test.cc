@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "api/catalogue/stores.h"
 #include "tests/server/workbench.h"
 #include "tests/support/places.h"
 
@@ -85,6 +86,10 @@ TEST(ProtocolCommand, BottlesThatDisagreeAreRefused) {
   EXPECT_TRUE(alike["saved_part"]["revision"].is_object()) << alike["saved_part"].dump();
   EXPECT_EQ(alike["saved_part"]["specimen"], "A");
   EXPECT_EQ(alike["bottles"][0]["numbers"][0]["agrees"], true);
+  const std::string recording = ReadAll(bench.Path("recording.csv"));
+  const auto kept = bench.Run(std::string("catalog document get ") + kPart + " " +
+                              catalog::Sha256(recording) + " --out -");
+  EXPECT_EQ(kept.out, recording);
 }
 
 // Times in ms under a heading that says s: told at once, with what settles it.

@@ -58,6 +58,10 @@ TEST_F(SavePart, WritesOneRevisionThatTheHistoryHas) {
   EXPECT_EQ(part["provenance"]["sonic_conductance_dm3_per_s_bar"]["kind"], "measured");
   EXPECT_EQ(part["documents"].size(), 1u);
   EXPECT_EQ(Part("/history")["history"].size(), changes + 1u);
+  // With the recording as it was sent.
+  const Json kept = Part("/documents")["documents"][0]["file"];
+  ASSERT_TRUE(kept.is_object());
+  EXPECT_EQ(client_.Get(kept["href"].get<std::string>())->body, document.dump());
 }
 
 TEST_F(SavePart, IsRefusedBeforeTheWorkWhereNothingIsMeasured) {

@@ -97,6 +97,14 @@ export async function getAtMost<T>(path: string, bytesMax: number): Promise<T | 
   void response.body?.cancel();
   return null;
 }
+// A file that the service keeps, under the name that it says.
+export async function getFile(path: string): Promise<{ name: string; content: Blob }> {
+  const response = await fetch(path, { headers: withToken({}) });
+  if (!response.ok) throw await problemOf(response);
+  const said = response.headers.get('Content-Disposition') ?? '';
+  const name = /filename\*=UTF-8''(\S+)/.exec(said)?.[1];
+  return { name: decodeURIComponent(name ?? 'document'), content: await response.blob() };
+}
 export const post = async <T>(path: string, body: unknown, signal?: AbortSignal): Promise<T> =>
   (await ask<T>('POST', path, { body, signal })).body;
 

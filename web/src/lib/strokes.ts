@@ -9,6 +9,7 @@ export interface Stroke {
   achieved_s: number;
   limit_s: number | null;
   target_kpa_gauge: number;
+  target_share: number; // of the way from where it rests
   peak_kpa_gauge: number | null; // of a rise, where the valve may close late
   t_s: number[]; // from the command on
   pressure_kpa_gauge: (number | null)[];
@@ -69,7 +70,9 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
       const share = isRise
         ? (requirements.rise?.to_fraction ?? 0.95)
         : (requirements.fall?.to_fraction ?? 0.05);
-      const target = share * operating;
+      // Falls end near where the actuator rests, which may be below ambient.
+      const rest = isRise ? 0 : (group.low_pressure_kpa_gauge ?? 0);
+      const target = rest + share * (operating - rest);
       const achieved = isRise ? found.rise_time_s : found.fall_time_s;
       const limit = (isRise ? group.rise_time_s_max : group.fall_time_s_max) ?? null;
       const isThere = (p: number) => (isRise ? 1 : -1) * sign * (p - target);
@@ -100,6 +103,7 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
             achieved_s: achieved,
             limit_s: limit,
             target_kpa_gauge: target,
+            target_share: share,
             peak_kpa_gauge: isRise && sign * (peak - operating) > 1e-6 ? peak : null,
             t_s: times,
             pressure_kpa_gauge: cutValues,

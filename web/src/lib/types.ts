@@ -436,6 +436,10 @@ export interface Document {
   link: string;
   sha256: string;
 }
+// As the service lists it: with its file, where that is kept.
+export interface DocumentOfPart extends Document {
+  file: { media_type: string; bytes: number; href: string } | null;
+}
 
 export interface Part {
   id: string;

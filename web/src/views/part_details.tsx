@@ -1,4 +1,4 @@
-// What a part carries beside its numbers: series, aliases, offers, documents.
+// What a part carries beside its numbers: series, aliases, offers; its documents in the form.
 import { isAddress } from '../lib/catalogue';
 import type { Document, Offer, Part } from '../lib/types';
 import { Chip } from '../ui/controls';
@@ -34,7 +34,6 @@ export function PartDetails({ part }: { part: Part }) {
       )}
       {part.aliases.length > 0 && <p>Also {part.aliases.join(', ')}</p>}
       {part.offers.length > 0 && <Offers offers={part.offers} />}
-      {part.documents.length > 0 && <Documents documents={part.documents} />}
     </>
   );
 }
@@ -60,27 +59,6 @@ function Offers({ offers }: { offers: Offer[] }) {
         </tr>
       ))}
     </Table>
-  );
-}
-
-function Documents({ documents }: { documents: Document[] }) {
-  return (
-    <>
-      <h3>Documents</h3>
-      <ul>
-        {documents.map((document, i) => (
-          <li key={i}>
-            <Address text={document.link} />
-            {document.sha256 && (
-              <>
-                {' '}
-                <code data-tip="SHA-256 of the file">{document.sha256.slice(0, 12)}</code>
-              </>
-            )}
-          </li>
-        ))}
-      </ul>
-    </>
   );
 }
 

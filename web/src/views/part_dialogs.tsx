@@ -14,6 +14,7 @@ import { Chip, Dialog, Notice } from '../ui/controls';
 import { number, Table } from '../ui/table';
 import { PartHistory } from './history';
 import { Address, OrderableChip, PartDetails } from './part_details';
+import { PartDocuments } from './part_documents';
 import { PartForm } from './part_form';
 import { Protocols } from './protocols';
 
@@ -28,12 +29,17 @@ export function PartDialog(props: {
   const loaded = useSignal<{ part: Part; etag: string } | null>(null);
   const problem = useSignal('');
   const mode = useSignal<'show' | 'edit' | 'copy'>('show');
+  const changed = useSignal(false);
   const load = () =>
     loadPart(id).then(
       (answer) => (loaded.value = answer),
       (error) => (problem.value = asProblem(error).message),
     );
   useEffect(() => void load(), [id]);
+  const reload = () => {
+    changed.value = true;
+    void load();
+  };
   const now = loaded.value;
   if (now && mode.value !== 'show') {
     return (
@@ -61,7 +67,7 @@ export function PartDialog(props: {
     <Dialog
       wide
       title={now ? `${now.part.manufacturer} ${now.part.part_number}` : id}
-      onClose={() => props.onClose(false)}
+      onClose={() => props.onClose(changed.value)}
     >
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       {now && (
@@ -88,6 +94,7 @@ export function PartDialog(props: {
           </div>
           {now.part.notes && <p class="notes">{now.part.notes}</p>}
           <PartDetails part={now.part} />
+          <PartDocuments part={now.part} onChanged={reload} />
           <FieldTable part={now.part} meta={meta} />
           {now.part.curve && <Curve part={now.part} />}
           <Protocols id={id} />

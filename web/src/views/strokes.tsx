@@ -22,7 +22,8 @@ export function Strokes(props: { design: Design; requirements: Requirements }) {
 
 function StrokePlot({ stroke }: { stroke: Stroke }) {
   const { group, isRise } = stroke;
-  const share = Math.abs(stroke.target_kpa_gauge / group.operating_pressure_kpa_gauge);
+  const share = stroke.target_share;
+  const way = !isRise && group.low_pressure_kpa_gauge ? 'the way' : 'operating pressure';
   const at = (value: number, label: string): Guide => ({
     value: toShown('pressure', value),
     label,
@@ -50,7 +51,7 @@ function StrokePlot({ stroke }: { stroke: Stroke }) {
           : []),
       ]}
       guides={[
-        at(stroke.target_kpa_gauge, `${short(100 * share)} % of operating pressure`),
+        at(stroke.target_kpa_gauge, `${short(100 * share)} % of ${way}`),
         ...(isRise && highest ? [at(highest, 'pressure, at most')] : []),
         ...(stroke.peak_kpa_gauge === null ? [] : [at(stroke.peak_kpa_gauge, 'peak, valve late')]),
       ]}
