@@ -64,7 +64,9 @@ Json RenderGuarantee(const Tolerance& tolerance, const optimizer::Answer& guaran
   if (guaranteed.designs.empty()) return json;
   const double objective = guaranteed.designs.front().objective;
   json["objective_guaranteed"] = Number(objective);
-  if (on_paper.designs.empty()) return json;
+  // Known prices and sums where unknown ones count as 0 are not compared.
+  if (on_paper.designs.empty() || on_paper.lower_bound_prices != guaranteed.lower_bound_prices)
+    return json;
   const double paper = on_paper.designs.front().objective;
   json["costs"] = Number(objective - paper);
   if (paper > 0.0) json["costs_share"] = Number(objective / paper - 1.0);

@@ -58,9 +58,14 @@ void SetVolumes(const model::ActuatorVolumes& volumes, model::Chamber& chamber) 
   chamber.expansion_ratio = volumes.operating_m3 / volumes.rest_m3;
 }
 
-// Also of one too deep to be read.
+// Also of one that cannot be read, as it is too deep or in no known unit.
 bool IsBelowZero(Reader& group) {
   const Json* given = group.Raw("operating_pressure_kpa_gauge");
+  if (given && given->is_string()) {
+    const std::string& text = given->get_ref<const std::string&>();
+    const std::size_t first = text.find_first_not_of(' ');
+    return first != std::string::npos && text.compare(first, 1, "-") == 0;
+  }
   return given && given->is_number() && given->get<double>() < 0.0;
 }
 

@@ -164,13 +164,20 @@ class FrontSearch {
     if (searches_ == 1) {
       first_.proof = answer.proof;
       first_.infeasibility = std::move(answer.infeasibility);
-      if (std::isinf(problem_.cost_max_eur))  // prices were asked for, not a limit
-        for (std::vector<Conflict>& conflict : first_.infeasibility.conflicts)
-          std::erase_if(conflict, [](const Conflict& entry) {
-            return entry.requirement == "/supply/cost_eur_max";
-          });
+      if (std::isinf(problem_.cost_max_eur)) PricesAreNoLimit(first_.infeasibility);
     }
     return answer;
+  }
+
+  // Prices were asked for, not a limit on their sum.
+  static void PricesAreNoLimit(Infeasibility& found) {
+    const std::string limit = "/supply/cost_eur_max";
+    for (std::vector<Conflict>& conflict : found.conflicts)
+      std::erase_if(conflict, [&](const Conflict& entry) { return entry.requirement == limit; });
+    const auto dropped =
+        std::find_if(found.relaxation.begin(), found.relaxation.end(),
+                     [&](const Concession& one) { return one.requirement == limit; });
+    if (dropped != found.relaxation.end()) *dropped = {"prices", std::nullopt, std::nullopt};
   }
 
   void Explore(const Caps& region) {

@@ -206,6 +206,7 @@ void CheckStated(Reader& reader, const RobustRequest& request,
 optimizer::Answer ReadAnswer(Reader& reader, const Problem& problem) {
   optimizer::Answer answer;
   answer.status = ReadStatus(reader);
+  answer.lower_bound_prices = problem.unpriced_allowed;
   for (const Element& design : reader.List("designs", 0, kDesignsMax))
     answer.designs.push_back(
         ReadDesign(design, static_cast<int>(answer.designs.size()) + 1, problem, reader.errors()));

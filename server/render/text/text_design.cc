@@ -93,11 +93,11 @@ std::string TotalsText(const Json& design) {
   const Json air = performance.value("compressed_air_l_per_min_anr", Json());
   std::string text = fmt::format(
       "  Totals: mass {:.3f} kg, volume {} L, cost {} €, energy {} Wh\n"
-      "  Air: {} L (ANR) per actuation, {} L in all; runs {} s, sustains {} Hz\n",
-      totals.at("mass_kg").get<double>(), Short(totals.at("volume_l")),
-      Short(totals.at("cost_eur")), Short(totals.at("energy_wh")),
-      Short(performance.at("air_per_actuation_l_anr")), Short(performance.at("air_total_l_anr")),
-      Short(performance.at("run_time_s")), Short(performance.at("frequency_hz_sustained")));
+      "  Air: {} L (ANR) per stroke of one actuator, {} L in all; runs {} s, sustains {} Hz\n",
+      totals.at("mass_kg").get<double>(), Short(totals.at("volume_l")), CostText(totals),
+      Short(totals.at("energy_wh")), Short(performance.at("air_per_actuation_l_anr")),
+      Short(performance.at("air_total_l_anr")), Short(performance.at("run_time_s")),
+      Short(performance.at("frequency_hz_sustained")));
   if (air.is_number())
     text += fmt::format("  Compressed air: {} L/min (ANR) all the while\n", Short(air));
   return text;
@@ -153,9 +153,14 @@ std::string Details(const Json& design) {
          OrderText(design);
 }
 
+std::string RequirementText(const Json& entry) {
+  const std::string requirement = entry.at("requirement");
+  return requirement == "prices" ? "prices: that all parts have one" : requirement;
+}
+
 // One entry of a conflict: what is required, and what was found to be enough.
 std::string EntryText(const Json& entry) {
-  std::string text = "  " + entry.at("requirement").get<std::string>();
+  std::string text = "  " + RequirementText(entry);
   if (entry.at("required").is_number()) text += ": required " + Short(entry.at("required"));
   if (entry.at("best").is_number())
     return text + fmt::format(", the catalogue reaches {} while the others hold ({} off)\n",
@@ -169,7 +174,7 @@ std::string RelaxationText(const Json& relaxation) {
   if (relaxation.empty()) return "";
   std::string text = "The least that makes it feasible:\n";
   for (const auto& relaxed : relaxation)
-    text += fmt::format("  {}: {}\n", relaxed.at("requirement").get<std::string>(),
+    text += fmt::format("  {}: {}\n", RequirementText(relaxed),
                         relaxed.at("value").is_number()
                             ? fmt::format("{} in place of {}", Short(relaxed.at("value")),
                                           Short(relaxed.at("required")))

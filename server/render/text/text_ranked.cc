@@ -80,12 +80,30 @@ double Worst(const Json& design, const char* what) {
   return worst;
 }
 
+bool Minimizes(const Json& answer, const char* amount) {
+  const Json objective = answer.at("requirements").value("objective", Json::object());
+  const Json minimize = objective.value("minimize", Json());
+  return minimize == amount || (minimize.is_object() && minimize.contains(amount));
+}
+
 bool CountsCost(const Json& answer) {
-  const Json& asked = answer.at("requirements");
-  const Json minimize = asked.value("minimize", Json());
-  const Json limits = asked.value("supply", Json::object());
-  return minimize == "cost_eur" || (minimize.is_object() && minimize.contains("cost_eur")) ||
-         (limits.is_object() && limits.contains("cost_eur_max"));
+  const Json limits = answer.at("requirements").value("supply", Json::object());
+  return Minimizes(answer, "cost_eur") || limits.contains("cost_eur_max");
+}
+
+// What is minimised besides mass: names of columns, and the total in each.
+struct Minimized {
+  const char* unit;
+  std::string (*text)(const Json& totals);
+};
+std::vector<Minimized> MinimizedOf(const Json& answer) {
+  std::vector<Minimized> list;
+  if (CountsCost(answer)) list.push_back({"€", CostText});
+  if (Minimizes(answer, "volume_l"))
+    list.push_back({"L", [](const Json& totals) { return Short(totals.at("volume_l")); }});
+  if (Minimizes(answer, "energy_wh"))
+    list.push_back({"Wh", [](const Json& totals) { return Short(totals.at("energy_wh")); }});
+  return list;
 }
 
 std::string MarkOf(const Json& design) {
@@ -148,16 +166,17 @@ const Json* Tightest(const Json& design) {
 
 std::string RankedTable(const Json& answer) {
   const Json& designs = answer.at("designs");
-  const bool chances = HasChances(designs), cost = CountsCost(answer);
+  const bool chances = HasChances(designs);
+  const std::vector<Minimized> minimized = MinimizedOf(answer);
   // Of 100 characters, what the columns with figures leave.
-  const std::size_t narrower = (chances ? 5 : 0) + (cost ? 4 : 0);
+  const std::size_t narrower = (chances ? 5 : 0) + 4 * minimized.size();
   std::vector<Table::Column> columns{{"#"},
                                      {"source", Align::kLeft},
                                      {"valves", Align::kLeft},
                                      {"battery", Align::kLeft},
                                      {"tank"},
                                      {"kg"}};
-  if (cost) columns.push_back({"cost €"});
+  for (const Minimized& one : minimized) columns.push_back({one.unit});
   columns.push_back({"tightest", Align::kLeft});
   if (chances) columns.push_back({"chance"});
   columns.push_back({"est."});
@@ -169,7 +188,7 @@ std::string RankedTable(const Json& answer) {
                                  Cut(PowerOf(design), 10),
                                  TankOf(design),
                                  Mass(design)};
-    if (cost) row.push_back(Short(design.at("totals").at("cost_eur")));
+    for (const Minimized& one : minimized) row.push_back(one.text(design.at("totals")));
     row.push_back(Cut(TightestText(design), 15));
     if (chances) row.push_back(Percent(design.at("robustness").at("probability")));
     row.push_back(Estimated(design));
@@ -203,8 +222,7 @@ std::string WideTable(const Json& designs) {
                StoreOf(design), NamesOf(design, {"valve"}), PowerOf(design),
                NamesOf(design, {"reservoir"}), NamesOf(design, {"regulator"}),
                NamesOf(design, {"tubing"}), Mass(design), Short(totals.at("volume_l")),
-               Short(totals.at("cost_eur")),
-               Short(design.at("settings").at("source_pressure_kpa_gauge")),
+               CostText(totals), Short(design.at("settings").at("source_pressure_kpa_gauge")),
                fmt::format("{:.3f}", Worst(design, "rise_time_s")),
                fmt::format("{:.3f}", Worst(design, "fall_time_s")), TightestText(design),
                variants.contains("found") ? Grouped(variants.at("found")) : "–", MarkOf(design)});
@@ -244,24 +262,32 @@ std::string VariantsText(const Json& design) {
                      Grouped(variants.at("found")), differ);
 }
 
+std::string CostText(const Json& totals) {
+  return totals.at("cost_eur").is_number() ? Short(totals.at("cost_eur"))
+                                           : "≥ " + Short(totals.at("cost_eur_min"));
+}
+
 std::string QualityLine(const Json& answer) {
   const Json& designs = answer.at("designs");
   if (designs.empty()) return "";
   const Json& best = designs.front();
   const Json& quality = best.at("data_quality");
-  const Json& cost = best.at("totals").at("cost_eur");
-  std::string text =
-      CountsCost(answer) && cost.is_number()
-          ? fmt::format("Best: {} €, {} kg, estimates carry {} of the mass", Short(cost),
-                        Mass(best), Percent(quality.at("mass_share_estimated")))
-          : fmt::format("Best: {} kg, estimates carry {} of it", Mass(best),
-                        Percent(quality.at("mass_share_estimated")));
+  std::string text = "Best: ";
+  const std::vector<Minimized> minimized = MinimizedOf(answer);
+  for (const Minimized& one : minimized)
+    text += one.text(best.at("totals")) + " " + one.unit + ", ";
+  text += fmt::format("{} kg, estimates carry {} of {}", Mass(best),
+                      Percent(quality.at("mass_share_estimated")),
+                      minimized.empty() ? "it" : "the mass");
   if (quality.at("flow_estimated").get<bool>()) text += " and some flow data";
   const std::size_t classes = quality.value("not_orderable", Json::array()).size();
   if (classes > 0)
     text += fmt::format("; {} of {} rows {} no product that one can order", classes,
                         best.at("parts").size(), classes == 1 ? "is" : "are");
-  return text + ".\n\n";
+  text += ".\n";
+  if (answer.value("price_basis", "") == "lower_bound")
+    text += "Unknown prices count as 0: ≥ is before the sum of those that are known.\n";
+  return text + "\n";
 }
 
 }  // namespace plenum::server

@@ -8,9 +8,9 @@
 
 namespace plenum::server {
 
-// What each design is first (source, valves, battery, tank), then its mass, or cost where that
-// counts, the requirement that it meets most closely and the share of its mass that is estimated:
-// at most 100 characters wide.
+// What each design is first (source, valves, battery, tank), then its mass, what else is minimised,
+// cost where that counts, the requirement that it meets most closely and the share of its mass that
+// is estimated: at most 100 characters wide.
 std::string RankedTable(const api::Json& answer);
 // The same with all figures, as wide as it gets.
 std::string WideTable(const api::Json& designs);
@@ -27,6 +27,9 @@ std::string VariantsText(const api::Json& design);
 
 // How far the best design can be trusted: the first line that people read.
 std::string QualityLine(const api::Json& answer);
+
+// The cost of a design's totals, €; "≥ 49.0" where some price is unknown.
+std::string CostText(const api::Json& totals);
 
 // The requirement that is met most closely; nullptr without any.
 const api::Json* Tightest(const api::Json& design);

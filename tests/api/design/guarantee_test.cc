@@ -8,6 +8,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/answer.h"
+#include "api/design/guaranteed.h"
 #include "api/design/read/selection.h"
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/problem/family_specs.h"
@@ -212,6 +213,19 @@ TEST(GuaranteeTest, LimitsHoldAtTheUpperValue) {
   EXPECT_TRUE(limited["designs"].empty() ||
               limited["designs"][0]["parts"] != free["designs"][0]["parts"]);
   EXPECT_EQ(Objective(limited["on_paper"]), Objective(free["on_paper"]));
+}
+
+// A list of known prices beside one where unknown ones count as 0: their difference says nothing.
+TEST(GuaranteeTest, SumsOfKnownPricesAreNotCompared) {
+  optimizer::Answer paper, certain;
+  paper.designs.emplace_back().objective = 499.3;
+  certain.designs.emplace_back().objective = 2.5;
+  EXPECT_NEAR(RenderGuarantee({}, certain, paper)["costs"].get<double>(), -496.8, 1e-9);
+  certain.lower_bound_prices = true;
+  const Json json = RenderGuarantee({}, certain, paper);
+  EXPECT_TRUE(json["costs"].is_null());
+  EXPECT_TRUE(json["costs_share"].is_null());
+  EXPECT_EQ(json["objective_guaranteed"], 2.5);
 }
 
 TEST(GuaranteeTest, IsVerifiedAndTamperingRefused) {

@@ -176,6 +176,15 @@ TEST(VacuumTest, NamesWhatIsWrongWithARequest) {
   const std::string operating = "/actuators/0/operating_pressure_kpa_gauge ";
   EXPECT_EQ(with([](Json&, Json& bag) { bag["operating_pressure_kpa_gauge"] = -0.5; }), operating);
   EXPECT_EQ(with([](Json&, Json& bag) { bag["operating_pressure_kpa_gauge"] = -120; }), operating);
+  // Below ambient all the same: nothing else follows from what cannot be read.
+  for (const char* text : {"-0.6 baar", "-60", " -60 kp", "-2 bar"})
+    EXPECT_EQ(with([&](Json& r, Json& bag) {
+                r["actuators"].push_back(bag);
+                r["actuators"][1]["name"] = "second";
+                bag["operating_pressure_kpa_gauge"] = text;
+              }),
+              operating)
+        << text;
   EXPECT_EQ(with([](Json&, Json& bag) { bag["expansion_ratio"] = 1.5; }),
             "/actuators/0/expansion_ratio ");
   EXPECT_EQ(with([](Json&, Json& bag) { bag["expansion_ratio"] = 0; }),

@@ -326,6 +326,21 @@ TEST(ParetoTest, ConflictsNameOnlyRequirements) {
   EXPECT_EQ(conflicts[0][0].requirement, "/actuators/0/rise_time_s_max");
 }
 
+// A front of cost needs prices; no limit on cost was given that could be dropped.
+TEST(ParetoTest, MissingPricesAreNamedAsPrices) {
+  Problem problem = LongFront();
+  for (model::Tubing& tube : problem.parts.tubing) tube.per_metre.cost_eur.reset();
+  const Front front =
+      ParetoFront(problem, {Amount::kMass, Amount::kCost}, Within(20.0), optimizer::FindConflicts);
+  EXPECT_EQ(front.answer.status, Status::kInfeasible);
+  const optimizer::Infeasibility& why = front.answer.infeasibility;
+  ASSERT_EQ(why.conflicts.size(), 1u);
+  for (const optimizer::Conflict& entry : why.conflicts[0]) EXPECT_EQ(entry.requirement, "prices");
+  ASSERT_EQ(why.relaxation.size(), 1u);
+  EXPECT_EQ(why.relaxation[0].requirement, "prices");
+  EXPECT_FALSE(why.relaxation[0].required || why.relaxation[0].value);
+}
+
 // Stopped anywhere on the way.
 TEST(ParetoTest, WhatIsNotSearchedIsNamed) {
   const std::vector<Amount> amounts{Amount::kMass, Amount::kVolume};

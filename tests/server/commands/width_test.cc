@@ -88,6 +88,10 @@ TEST_P(TablesOfCommands, OfDesigns) {
   judged["robust"] = {{"draws", 20}};
   judged["explain"] = {{"prices", true}, {"ranks", 2}};
   Check("design " + Write("judged.json", judged));
+  api::Json weighted = Example("gripper", 10.0);
+  weighted["objective"]["minimize"] = {{"cost_eur", 0.01}, {"volume_l", 1.0}, {"energy_wh", 0.1}};
+  weighted["prices"] = "lower_bound";
+  Check("design " + Write("weighted.json", weighted));
   api::Json front = Example("gripper", 10.0);
   front["objective"] = {{"pareto", {"mass_kg", "volume_l"}}};
   Check("design " + Write("front.json", front));

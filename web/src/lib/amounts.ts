@@ -44,6 +44,13 @@ export const axes: Axis[] = [
   ),
   plain('cost', 'cost', '€', 'Of all parts together', (d) => d.totals.cost_eur),
   plain(
+    'cost-known',
+    'cost, at least',
+    '€',
+    'Of the parts whose price is known; unknown ones count as 0',
+    ({ totals }) => (totals.cost_eur === null ? (totals.cost_eur_min ?? null) : null),
+  ),
+  plain(
     'energy',
     'energy',
     'Wh',

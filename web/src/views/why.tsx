@@ -51,10 +51,25 @@ export function Why({
               {answer.guarantee ? ' that are guaranteed' : ''}
               {answer.status === 'optimal' ? '' : ' found'}:{' '}
               <b>
-                {significant(first.objective, 4)} {objectiveUnit(answer.requirements)}
+                {answer.price_basis === 'lower_bound' && objectiveUnit(answer.requirements) === '€'
+                  ? `≥ ${significant(first.totals.cost_eur_min ?? null, 4)}`
+                  : significant(first.objective, 4)}{' '}
+                {objectiveUnit(answer.requirements)}
               </b>
               {sharesOf(first)}
             </li>
+            {answer.price_basis === 'lower_bound' && (
+              <li>
+                Unknown prices count as 0
+                {first.totals.cost_eur === null && (
+                  <>
+                    : of its parts those with a price cost{' '}
+                    <b>{significant(first.totals.cost_eur_min ?? null, 4)} €</b>
+                  </>
+                )}
+                .
+              </li>
+            )}
             <li>{tightest(first, answer)}</li>
             {next && (
               <li>
