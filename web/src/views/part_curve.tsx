@@ -58,9 +58,10 @@ function readLine(line: string, number: number): GivenPoint | string {
   const split = splitAmounts(line);
   const cells = split.length > 1 ? split : line.split(',').map((cell) => cell.trim());
   if (cells.length !== columns.length) {
-    const what = cells.length > columns.length ? 'more than three numbers' : '';
     const missing = columns.slice(cells.length).map((column) => `the ${nameOf[column]}`);
-    return `line ${number} has ${what || `not ${missing.join(' and not ')}`}: each needs ${allColumns()}`;
+    const what =
+      missing.length > 0 ? `lacks ${missing.join(' and ')}` : 'has more than three numbers';
+    return `line ${number} ${what}: each needs ${allColumns()}`;
   }
   const point: GivenPoint = {};
   for (const [i, column] of columns.entries()) {
