@@ -135,6 +135,7 @@ function Rows({ table }: { table: SweepTable }) {
   return (
     <Table
       label="Answers"
+      class="answers"
       heads={[
         'variant',
         ...fields.map((field) => number(field.name, field.unit)),
@@ -170,7 +171,7 @@ function Rows({ table }: { table: SweepTable }) {
           <td class="num">{significant(row.volume_l, 4)}</td>
           <td class="num">{significant(row.cost_eur, 4)}</td>
           <td class="num">{percent(row.gap)}</td>
-          <td>{row.parts?.join('; ') ?? row.conflict ?? row.detail ?? '–'}</td>
+          <td class="parts-of">{row.parts?.join('; ') ?? row.conflict ?? row.detail ?? '–'}</td>
           <td class="num">{row.seconds === null ? '–' : duration(row.seconds)}</td>
         </tr>
       ))}
