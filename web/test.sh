@@ -10,7 +10,7 @@ cd ..
 [ -f build/release/build.ninja ] || cmake --preset release
 cmake --build --preset release --target plenum
 tests=()
-for name in "${@:-actions lists fields errors import documents recording finding access tank exchange protocol direct_pump vacuum both_rails gait double_acting regulation sweep new_user speed}"; do
+for name in "${@:-actions lists fields errors import documents recording finding access tank exchange protocol direct_pump vacuum both_rails gait double_acting regulation sweep own_units reload new_user speed}"; do
   for one in $name; do tests+=("web/tests/$one.test.mjs"); done
 done
 node --test --test-concurrency=1 "${tests[@]}"

@@ -15,7 +15,7 @@ import {
   volumeUnit,
   volumeUnits,
 } from './lib/units';
-import { Segmented } from './ui/controls';
+import { Dialog, Segmented } from './ui/controls';
 import { Tooltip } from './ui/tooltip';
 import { CatalogueView } from './views/catalogue';
 import { DesignsView } from './views/designs';
@@ -128,6 +128,38 @@ function Settings() {
   );
 }
 
+// The documentation, where it was built.
+function DocsLink() {
+  const isMissing = useSignal(false);
+  const open = async (event: MouseEvent) => {
+    event.preventDefault();
+    const found = await fetch('/docs/', { method: 'HEAD' }).catch(() => null);
+    if (found?.status === 404) isMissing.value = true;
+    else window.open('/docs/', '_blank', 'noopener');
+  };
+  return (
+    <>
+      <a
+        href="/docs/"
+        target="_blank"
+        data-tip="Opens in a tab of its own"
+        onClick={(event) => void open(event)}
+      >
+        Docs
+      </a>
+      {isMissing.value && (
+        <Dialog title="Documentation" onClose={() => (isMissing.value = false)}>
+          <p>
+            The documentation was not built with this program. Build it with{' '}
+            <code>docs/build.sh</code> where plenum comes from and start <code>plenum serve</code>{' '}
+            again.
+          </p>
+        </Dialog>
+      )}
+    </>
+  );
+}
+
 export function App() {
   useShortcuts();
   useEffect(() => void refreshModels(), []);
@@ -172,9 +204,7 @@ export function App() {
               {v.label}
             </a>
           ))}
-          <a href="/docs/" target="_blank" data-tip="Opens in a tab of its own">
-            Docs
-          </a>
+          <DocsLink />
         </nav>
         <Settings />
       </header>

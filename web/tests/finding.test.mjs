@@ -35,7 +35,7 @@ test('words find parts in all their texts, and where else there are some', async
   const { page, close } = await openPage(browser, service.base, '#/catalogue/battery');
   const search = page.getByRole('searchbox', { name: 'Find parts' });
   await search.fill('green quokka');
-  await page.getByText('battery: 1 parts').waitFor();
+  await page.getByText('battery: 1 part').waitFor();
   assert.equal(await rows(page).count(), 1);
   await search.fill('QUOKKA');
   await page.getByText('battery: 2 parts').waitFor();

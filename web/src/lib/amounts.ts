@@ -252,7 +252,10 @@ export function requirementUnit(pointer: string): string {
 // Where in the requirements something is, in the words of the form.
 export function placeInWords(pointer: string, groups: { name: string }[]): string {
   const [, index, rest] = /^\/actuators\/(\d+)\/(.+)$/.exec(pointer) ?? [];
-  const field = (rest ?? pointer).split('/').pop()!;
+  const field = (rest ?? pointer)
+    .replace(/\/\d+$/, '')
+    .split('/')
+    .pop()!;
   const name = fieldName(field.replace(/_max$/, '')).label || 'the requirements';
   return rest ? `${name} of ${entriesOf(groups)[Number(index)] ?? index}` : name;
 }

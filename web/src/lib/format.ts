@@ -104,6 +104,7 @@ const units: [RegExp, string][] = [
   [/_kg_per_m$/, 'kg/m'],
   [/_eur_per_m$/, '€/m'],
   [/_kpa_gauge$/, 'kPa gauge'],
+  [/_kpa_abs$/, 'kPa abs'],
   [/_kpa$/, 'kPa'],
   [/_kg$/, 'kg'],
   [/_ml$/, 'mL'],
@@ -115,6 +116,7 @@ const units: [RegExp, string][] = [
   [/_hz$/, 'Hz'],
   [/_l$/, 'L'],
   [/_w$/, 'W'],
+  [/_a$/, 'A'],
   [/_v$/, 'V'],
   [/_m$/, 'm'],
   [/_s$/, 's'],
@@ -124,13 +126,15 @@ const units: [RegExp, string][] = [
 export const fieldKind = (field: string): Kind =>
   field.endsWith('_kpa_gauge')
     ? 'pressure'
-    : field.endsWith('_kpa')
-      ? 'difference'
-      : field.endsWith('_ml')
-        ? 'volume_ml'
-        : field.endsWith('_l')
-          ? 'volume_l'
-          : 'plain';
+    : field.endsWith('_kpa_abs')
+      ? 'absolute'
+      : field.endsWith('_kpa')
+        ? 'difference'
+        : field.endsWith('_ml')
+          ? 'volume_ml'
+          : field.endsWith('_l')
+            ? 'volume_l'
+            : 'plain';
 
 // The service speaks in the document's units: its limits in those shown.
 export const inUnit = (kind: Kind, error: string): string =>
@@ -140,6 +144,17 @@ export const inUnit = (kind: Kind, error: string): string =>
         /(≥|≤|>|<|not) (-?\d[\d.]*(?:e[+-]?\d+)?)/g,
         (_, sign, number) => `${sign} ${short(toShown(kind, Number(number)))}`,
       );
+
+// Gauge pressures that the service names in a sentence ("85.27 kPa", "120 to 300 kPa"), as shown.
+export const pressuresInUnit = (sentence: string): string =>
+  sentence.replace(
+    /([-−]?\d+(?:\.\d+)?(?: to [-−]?\d+(?:\.\d+)?)?) kPa(?: gauge)?\b(?!\/| abs)/g,
+    (_, values: string) => {
+      const shownOf = (text: string) =>
+        short(toShown('pressure', Number(text.replace('−', '-'))), 4);
+      return `${values.split(' to ').map(shownOf).join(' to ')} ${unitOf('pressure')}`;
+    },
+  );
 
 export function fieldName(field: string): { label: string; unit: string } {
   if (field === 'current_max_a') return { label: 'current max', unit: 'A' };

@@ -48,8 +48,14 @@ export function decode(text: string): Requirements | null {
   }
 }
 
+// What is written here outlives a reload of the page; a new window begins with the example.
+const kept = 'plenum-requirements';
 const start = route.value.query.get('r');
-export const requirements = signal<Requirements>((start && decode(start)) || presets.exosuit!);
+const asked = start ? decode(start) : null;
+const before = asked ? null : decode(sessionStorage.getItem(kept) ?? '');
+export const requirements = signal<Requirements>(asked ?? before ?? presets.exosuit!);
+// Whether they are as they were before the page was loaded again, and not those of the address.
+export const areRestored = computed(() => before !== null && requirements.value === before);
 export const fieldErrors = signal<FieldError[]>([]);
 export type Validity = 'checking' | 'valid' | 'invalid' | 'unknown';
 export const validity = signal<Validity>('checking');
@@ -105,12 +111,12 @@ export function refuse(problem: Problem): boolean {
   return true;
 }
 
-let asked: AbortController | undefined;
+let checking: AbortController | undefined;
 let timer = 0;
 
 async function validate(document: Requirements): Promise<void> {
-  asked?.abort();
-  const mine = (asked = new AbortController());
+  checking?.abort();
+  const mine = (checking = new AbortController());
   try {
     const valid = await post<Remarked>('/v1/designs?validate_only=true', document, mine.signal);
     batch(() => {
@@ -140,12 +146,14 @@ effect(() => {
 
 effect(() => {
   const document = requirements.value;
+  const same = JSON.stringify(document) === JSON.stringify(presets.exosuit);
+  if (same) sessionStorage.removeItem(kept);
+  else sessionStorage.setItem(kept, encode(document));
   validity.value = 'checking';
   clearTimeout(timer);
   timer = window.setTimeout(() => {
     void validate(document);
     if ((route.peek().path[0] ?? 'requirements') === 'requirements') {
-      const same = JSON.stringify(document) === JSON.stringify(presets.exosuit);
       setQuery({ r: same ? undefined : encode(document) });
     }
   }, 150);

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 
 import { ask, get, post } from './api';
 import type { JobStatus, Requirements } from './types';
+import { namesUnit } from './understood';
 
 export interface Sweep {
   id: string;
@@ -47,9 +48,16 @@ export async function refreshSweeps(): Promise<void> {
   sweepList.value = (await get<{ sweeps: Sweep[] }>('/v1/sweeps')).sweeps;
 }
 
-// Pointers to the numbers of a document, in its order.
+export const stepsOf = (pointer: string): string[] =>
+  pointer
+    .split('/')
+    .slice(1)
+    .map((step) => step.replaceAll('~1', '/').replaceAll('~0', '~'));
+
+// Pointers to the numbers of a document, in its order; also to those that are typed with a unit.
 export function numbersOf(document: unknown, pointer = ''): string[] {
   if (typeof document === 'number') return [pointer];
+  if (typeof document === 'string') return namesUnit(pointer.split('/').pop()!) ? [pointer] : [];
   if (document === null || typeof document !== 'object') return [];
   return Object.entries(document).flatMap(([name, value]) =>
     numbersOf(value, `${pointer}/${name.replaceAll('~', '~0').replaceAll('/', '~1')}`),
@@ -57,7 +65,7 @@ export function numbersOf(document: unknown, pointer = ''): string[] {
 }
 
 // A copy of the document with another value at the pointer.
-function withValue(document: unknown, steps: string[], value: number): unknown {
+export function withValue(document: unknown, steps: string[], value: number | string): unknown {
   const [step, ...rest] = steps;
   if (step === undefined) return value;
   if (Array.isArray(document))
@@ -74,35 +82,19 @@ function mergeFor(document: unknown, steps: string[], value: number): unknown {
   return { [step]: mergeFor(inner, rest, value) };
 }
 
-// The values that are typed, or so many from one to another; none where they make no sense.
-export function valuesOf(list: string): number[] {
-  const texts = list.split(/[;\s]+/).filter(Boolean);
-  const values = texts.map(Number);
-  return values.every(Number.isFinite) ? [...new Set(values)] : [];
-}
-
-export function evenly(from: number, to: number, steps: number): number[] {
-  if (![from, to].every(Number.isFinite) || !Number.isInteger(steps) || steps < 2) return [];
-  const at = (i: number) => from + ((to - from) * i) / (steps - 1);
-  return [...new Set(Array.from({ length: steps }, (_, i) => Number(at(i).toPrecision(6))))];
-}
-
 export async function startSweep(
   requirements: Requirements,
   pointer: string,
   label: string,
-  values: number[],
+  values: { name: string; value: number }[],
 ): Promise<string> {
-  const steps = pointer
-    .split('/')
-    .slice(1)
-    .map((step) => step.replaceAll('~1', '/').replaceAll('~0', '~'));
+  const steps = stepsOf(pointer);
   const accepted = await post<{ id: string }>('/v1/sweeps', {
     schema: 'sweep/1',
     name: [requirements.name, label].filter(Boolean).join(': ').slice(0, 200),
     requirements,
-    patches: values.map((value) => ({
-      name: String(value),
+    patches: values.map(({ name, value }) => ({
+      name,
       merge: mergeFor(requirements, steps, value),
     })),
   });

@@ -38,3 +38,22 @@ export function readTyped(text: string): Typed {
   const value = Number(`${sign}${read}${power ?? ''}`);
   return Number.isFinite(value) ? value : 'unreadable';
 }
+
+// A share as a number, or in percent: "5 %" is 0.05, and 5 where the field counts in percent.
+export function readShare(text: string, inPercent: boolean): Typed {
+  const percent = /^(.*?)\s*%$/.exec(text.trim());
+  if (!percent) return readTyped(text);
+  const typed = readTyped(percent[1]!);
+  return typeof typed === 'number' && !inPercent ? Number((typed / 100).toPrecision(12)) : typed;
+}
+
+// Amounts that stand side by side in one text, each with or without a unit: "6 psi, 8 psi",
+// "0,5; 0,6", "600 ms 700 ms", "0.02 0.05". A blank parts two of them where a number begins after
+// it, a comma where a blank or a unit is beside it, or where there are several.
+export function splitAmounts(text: string): string[] {
+  const pieces = text.split(/[;\s]*[;\t\n]\s*|,\s+|,$|(?<=[^\d\s.,]),|\s+(?=[-+−]?[.,]?\d)/);
+  return pieces
+    .flatMap((piece) => (/^[^,]+(,[^,]+){2,}$/.test(piece) ? piece.split(',') : [piece]))
+    .map((piece) => piece.trim())
+    .filter(Boolean);
+}

@@ -25,12 +25,14 @@ effect(() => {
 const kpaPer: Record<PressureUnit, number> = { kPa: 1, bar: 100, psi: 6.894757293168 };
 
 // What a number is, which decides how it is shown.
-export type Kind = 'pressure' | 'difference' | 'volume_ml' | 'volume_l' | 'plain';
+export type Kind = 'pressure' | 'absolute' | 'difference' | 'volume_ml' | 'volume_l' | 'plain';
 
 export function unitOf(kind: Kind, plain = ''): string {
   switch (kind) {
     case 'pressure':
       return `${pressureUnit.value} ${reference.value}`;
+    case 'absolute': // whatever the reference
+      return `${pressureUnit.value} abs`;
     case 'difference': // of two pressures
       return pressureUnit.value;
     case 'volume_ml':
@@ -47,6 +49,7 @@ export function toShown(kind: Kind, value: number): number {
       return (
         (value + (reference.value === 'abs' ? ambientKpa.value : 0)) / kpaPer[pressureUnit.value]
       );
+    case 'absolute':
     case 'difference':
       return value / kpaPer[pressureUnit.value];
     case 'volume_ml':
@@ -68,6 +71,7 @@ export function fromShown(kind: Kind, shown: number): number {
         clean(shown * kpaPer[pressureUnit.value]) -
         (reference.value === 'abs' ? ambientKpa.value : 0)
       );
+    case 'absolute':
     case 'difference':
       return clean(shown * kpaPer[pressureUnit.value]);
     case 'volume_ml':

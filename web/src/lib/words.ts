@@ -38,7 +38,7 @@ export function proofInWords(answer: Answer): string {
     const { searches, proved, unexplored } = answer.front_proof;
     const work = `${searches} searches among ${total} combinations in ${duration(answer.seconds)}, ${proved === searches ? 'all' : count(proved)} proved.`;
     return unexplored.length === 0
-      ? `Proved: these ${listed} designs are the whole front. ${work}`
+      ? `Proved: ${listed === 1 ? 'this design is' : `these ${listed} designs are`} the whole front. ${work}`
       : `Best front found, not proved: ${unexplored.length} of its regions may hide designs. ${work}`;
   }
   switch (status) {
@@ -60,6 +60,9 @@ export function proofInWords(answer: Answer): string {
       return `Cancelled before the proof was complete; these are the best found. ${did}`;
   }
 }
+
+// "1 design", "2 designs".
+export const counted = (n: number, what: string): string => `${n} ${what}${n === 1 ? '' : 's'}`;
 
 // The name of a family of parts for people.
 export const familyWord = (family: string): string =>

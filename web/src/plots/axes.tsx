@@ -3,6 +3,12 @@ import type { ScaleLinear } from 'd3-scale';
 
 import { short } from '../lib/format';
 
+const yTicks = 5;
+
+// What the labels of the ticks and the title take at the left, at least `least`.
+export const roomAtLeft = (y: ScaleLinear<number, number>, least: number): number =>
+  Math.max(least, 25 + 6.2 * Math.max(...y.ticks(yTicks).map((tick) => short(tick, 7).length)));
+
 export interface Frame {
   width: number;
   height: number;
@@ -34,7 +40,7 @@ export function Axes(props: {
           </text>
         </g>
       ))}
-      {y.ticks(5).map((tick) => (
+      {y.ticks(yTicks).map((tick) => (
         <g key={tick}>
           <line
             class={mark}

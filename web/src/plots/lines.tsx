@@ -207,7 +207,8 @@ export function Lines(props: {
           {
             ...axis,
             label: props.yLabel,
-            size: 46 * size,
+            size: (_, ticks) =>
+              Math.max(46, 12 + 6.4 * Math.max(0, ...(ticks ?? []).map((t) => t.length))) * size,
             space: 30 * size,
             values: (_, ticks) => ticks.map((tick) => (tick === null ? '' : short(tick))),
           },

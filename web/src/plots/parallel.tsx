@@ -18,6 +18,7 @@ const height = 268;
 const top = 42;
 const bottom = 18;
 const inset = 34;
+const nameWidth = (axis: Axis): number => (6.6 * axis.label.length) / 2; // a half
 
 export function Parallel(props: {
   designs: Design[];
@@ -37,6 +38,11 @@ export function Parallel(props: {
     const pad = !single ? 0 : Math.abs(high) * 0.05 || 1;
     return { axis, single, scale: scaleLinear([low - pad, high + pad], [height - bottom, top]) };
   });
+  // The names of neighbours do not meet.
+  const room = Math.max(
+    68,
+    ...shown.slice(1).map(({ axis }, i) => nameWidth(axis) + nameWidth(shown[i]!.axis) + 8),
+  );
   const xOf = (i: number) => inset + (i * (width - 2 * inset)) / Math.max(1, shown.length - 1);
 
   useEffect(() => {
@@ -115,7 +121,10 @@ export function Parallel(props: {
         <div
           ref={ref}
           class="parallel-box"
-          style={{ height: `${height / 10}rem`, minWidth: `${shown.length * 6.8}rem` }}
+          style={{
+            height: `${height / 10}rem`,
+            minWidth: `${(2 * inset + (shown.length - 1) * room) / 10}rem`,
+          }}
         >
           {width > 0 && (
             <>

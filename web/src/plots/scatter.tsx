@@ -7,7 +7,7 @@ import { shown } from '../lib/format';
 import type { Design } from '../lib/types';
 import { toShown } from '../lib/units';
 import { Select } from '../ui/controls';
-import { Axes } from './axes';
+import { Axes, roomAtLeft } from './axes';
 import { Picture } from './picture';
 import { useWidth } from './width';
 
@@ -50,13 +50,14 @@ export function Scatter(props: {
     const pad = (high - low) * 0.06 || Math.abs(high) * 0.05 || 1;
     return [low - pad, high + pad];
   };
-  const sx = scaleLinear(extent(points.map((p) => toShown(x.kind, p.x))), [
-    space.left,
-    width - space.right,
-  ]);
   const sy = scaleLinear(extent(points.map((p) => toShown(y.kind, p.y))), [
     height - space.bottom,
     space.top,
+  ]);
+  const left = roomAtLeft(sy, space.left);
+  const sx = scaleLinear(extent(points.map((p) => toShown(x.kind, p.x))), [
+    left,
+    width - space.right,
   ]);
   const px = (value: number) => sx(toShown(x.kind, value));
   const py = (value: number) => sy(toShown(y.kind, value));
@@ -101,7 +102,7 @@ export function Scatter(props: {
           <Picture width={width} height={height}>
             <Axes
               hasGrid
-              frame={{ width, height, ...space }}
+              frame={{ width, height, ...space, left }}
               x={sx}
               y={sy}
               xLabel={[x.label, axisUnit(x)].filter(Boolean).join(', ')}

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { inUnit, short } from '../lib/format';
-import { readTyped } from '../lib/typed';
+import { readShare, readTyped, type Typed } from '../lib/typed';
 import { fromShown, type Kind, toShown, unitOf } from '../lib/units';
 
 export function Panel(props: {
@@ -133,6 +133,7 @@ export interface NumberFieldProps {
   // A field whose text stands nowhere would be asked for with the number that it had before.
   onText: (text: string) => void;
   takesUnits?: boolean;
+  isShare?: boolean; // takes percent, as does what ends at 1 and what counts in %
   read?: string; // what it read
   warning?: string;
   kind?: Kind;
@@ -148,8 +149,7 @@ export interface NumberFieldProps {
 const needed = 'a number is needed here';
 
 // What is wrong with a text whatever the service says; nothing where it is the service's to judge.
-function wrongWith(text: string, takesUnits = false): string | undefined {
-  const typed = readTyped(text);
+function wrongWith(text: string, typed: Typed, takesUnits = false): string | undefined {
   if (typed === 'ambiguous')
     return `may be ${text.replace(',', '.')} or ${text.replace(',', '')}: write one of them`;
   return typed === 'unreadable' && !takesUnits ? needed : undefined;
@@ -164,6 +164,12 @@ export function NumberField(props: NumberFieldProps) {
   const text = useSignal(asText(kind, props.value ?? props.usual));
   const sent = useRef<Entry>(props.value);
   const cleared = useSignal(false);
+  const isShare =
+    kind === 'plain' &&
+    !props.takesUnits &&
+    (props.isShare || props.unit === '%' || (props.range?.[1] ?? Infinity) <= 1);
+  const readNumber = (input: string) =>
+    isShare ? readShare(input, props.unit === '%') : readTyped(input);
   const shownUnit = useRef(unit);
 
   useLayoutEffect(() => {
@@ -178,7 +184,7 @@ export function NumberField(props: NumberFieldProps) {
   const take = (input: string) => {
     text.value = input;
     const trimmed = input.trim();
-    const typed = readTyped(trimmed);
+    const typed = readNumber(trimmed);
     cleared.value = trimmed === '';
     if (trimmed === '') {
       sent.current = null;
@@ -199,9 +205,13 @@ export function NumberField(props: NumberFieldProps) {
   const said =
     typeof props.value === 'string' ? props.error : props.error && inUnit(kind, props.error);
   const isNeeded = cleared.value && !props.optional && props.usual === undefined;
-  const wrong = text.value.trim() === '' ? undefined : wrongWith(text.value, props.takesUnits);
+  const typed = readNumber(text.value);
+  const wrong =
+    text.value.trim() === '' ? undefined : wrongWith(text.value, typed, props.takesUnits);
   const error = isNeeded ? needed : (wrong ?? said);
-  const hint = props.read ?? props.warning ?? [props.hint, range].filter(Boolean).join(' · ');
+  const read =
+    text.value.includes('%') && typeof typed === 'number' ? `read as ${short(typed)}` : props.read;
+  const hint = read ?? props.warning ?? [props.hint, range].filter(Boolean).join(' · ');
   return (
     <div class={`field ${error ? 'wrong' : ''}`}>
       <label for={id}>{props.label}</label>

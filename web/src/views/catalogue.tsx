@@ -7,7 +7,7 @@ import { asProblem } from '../lib/api';
 import { families, familyCounts, loadFamilies, loadFamily, revision } from '../lib/catalogue';
 import { go, link, route, setQuery } from '../lib/route';
 import type { Part } from '../lib/types';
-import { familyWord } from '../lib/words';
+import { counted, familyWord } from '../lib/words';
 import { Notice, Panel } from '../ui/controls';
 import { ExportButton } from '../ui/files';
 import { Added } from './added_part';
@@ -126,7 +126,7 @@ export function CatalogueView() {
         {meta && <Facets meta={meta} list={list} />}
       </Panel>
       <Panel
-        title={`${familyWord(family)}: ${shown.length === list.length ? `${list.length} parts` : `${shown.length} of ${list.length} parts`}`}
+        title={`${familyWord(family)}: ${`${shown.length === list.length ? '' : `${shown.length} of `}${counted(list.length, 'part')}`}`}
         aside={
           <>
             <button type="button" class="primary" onClick={() => (dialog.value = 'add')}>

@@ -75,7 +75,7 @@ export function DiagnosisView({
       <Candidates d={d} />
       <Stability d={d} />
       <NumbersOfRuns d={d} />
-      {d.revision && <SaveModel diagnosis={d} model={d.revision} />}
+      {d.revision && <SaveModel key={id} id={id} diagnosis={d} model={d.revision} />}
     </>
   );
 }

@@ -3,12 +3,13 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { asProblem } from '../lib/api';
-import { significant } from '../lib/format';
+import { short, significant } from '../lib/format';
 import { type GroupMaps, mapsOf, type Place } from '../lib/maps';
 import { missingPart, type Parts } from '../lib/rig';
 import { route, setQuery } from '../lib/route';
 import type { Design, Requirements } from '../lib/types';
 import { ContourMap } from '../plots/contour';
+import { toShown, unitOf } from '../lib/units';
 import { Notice, Segmented } from '../ui/controls';
 
 const levels = [0.2, 0.5, 1, 2, 5, 10];
@@ -68,7 +69,7 @@ export function Maps({
             yLabel="operating pressure / ambient"
             border={(source) => 1 + (source - 1) / toFraction}
             at={now.rise.at}
-            note={`${here(now.rise, design.configuration === 'compressor' ? '' : ' without the regulator')}. C ${significant(now.conductance)} dm³/(s·bar) and b ${significant(now.critical)} of the line, V₀ volume at rest, P₀ 100 kPa, expansion ${significant(now.expansion)}.`}
+            note={`${here(now.rise, design.configuration === 'compressor' ? '' : ' without the regulator')}. C ${significant(now.conductance)} dm³/(s·bar) and b ${significant(now.critical)} of the line, V₀ volume at rest, P₀ ${short(toShown('absolute', 100), 3)} ${unitOf('absolute')}, expansion ${significant(now.expansion)}.`}
           />
         )}
       </div>

@@ -127,7 +127,7 @@ function Wish({ part }: { part: Part }) {
       <button
         type="button"
         aria-pressed={isAsked}
-        data-tip={`The next searches take no other ${familyWord(part.family)} than those required`}
+        data-tip={`The next searches take no other ${familyWord(part.family)} than those required; a design may do without one`}
         onClick={() =>
           edit(['require', part.family], orNone(isAsked ? without(asked) : [...asked, part.id]))
         }

@@ -6,11 +6,12 @@ import { useRef } from 'preact/hooks';
 import { ask, asProblem, type FieldError } from '../lib/api';
 import { added, partPath, provenanceWord } from '../lib/catalogue';
 import { fieldKind, fieldName } from '../lib/format';
-import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
+import type { Family, Part, Provenance } from '../lib/types';
 import { namesUnit } from '../lib/understood';
 import { familyWord } from '../lib/words';
 import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
 import { focusFirstWrong } from '../ui/refused';
+import { CurveField, curveText, isFreeFlow, readCurve } from './part_curve';
 import { documentsText, offersText, readAliases, readDocuments, readOffers } from './part_details';
 
 type Draft = Record<string, unknown>;
@@ -23,39 +24,11 @@ const printedAs = (name: string): { hint?: string } => {
   return name === 'current_max_a' ? { hint: 'or the C-rate: 25C' } : {};
 };
 
-// "free flow 12 L/min, 0.8 A" in place of points.
-const isFreeFlow = (text: string): boolean => text.trim().startsWith('free flow');
-
 // Fields of several lines: what is wrong with them is said above the form.
-const inLines = ['/curve', '/aliases', '/offers', '/documents', '/orderable'];
+const inLines = ['/aliases', '/offers', '/documents', '/orderable'];
 
 const labelOf = (name: string, isRequired: boolean): string =>
   `${name[0]!.toUpperCase()}${name.slice(1)}${isRequired ? '' : ' (optional)'}`;
-
-const curveText = (curve: CurvePoint[] | undefined): string =>
-  (curve ?? [])
-    .map((p) =>
-      [p.pressure_kpa_gauge, p.free_air_l_per_min, p.current_a]
-        .filter((v) => v !== undefined)
-        .join(' '),
-    )
-    .join('\n');
-
-// Lines of "pressure flow [current]"; null where something is no number.
-function readCurve(text: string): CurvePoint[] | null {
-  const rows = text
-    .split('\n')
-    .map((line) => line.trim())
-    .filter(Boolean)
-    .map((line) => line.split(/[\s;,]+/).map(Number));
-  if (rows.some((row) => row.length < 2 || row.length > 3 || row.some((v) => !Number.isFinite(v))))
-    return null;
-  return rows.map(([pressure_kpa_gauge, free_air_l_per_min, current_a]) => ({
-    pressure_kpa_gauge: pressure_kpa_gauge!,
-    free_air_l_per_min: free_air_l_per_min!,
-    ...(current_a !== undefined && { current_a }),
-  }));
-}
 
 export function PartForm(props: {
   meta: Family;
@@ -92,6 +65,7 @@ export function PartForm(props: {
   // The source of a number that is wrong itself is not another fault.
   const elsewhere = errors.value.filter(
     (e) =>
+      !/^\/curve(\/|$)/.test(e.pointer) && // said below it
       (!/^\/[a-z_0-9]+$/.test(e.pointer) || inLines.includes(e.pointer)) &&
       errorAt(e.pointer.replace('/provenance/', '')) === undefined,
   );
@@ -99,11 +73,9 @@ export function PartForm(props: {
   // Changed numbers get the source named here, the others keep theirs.
   const documentOf = (): Draft | null => {
     const freeFlow = meta.has_curve && isFreeFlow(curve.value);
-    const points = meta.has_curve && !freeFlow ? readCurve(curve.value) : undefined;
-    if (points === null) {
-      errors.value = [
-        { pointer: '/curve', detail: 'each line needs two or three numbers: kPa gauge, L/min, A' },
-      ];
+    const points = meta.has_curve && !freeFlow ? readCurve(curve.value, part) : undefined;
+    if (points && 'pointer' in points) {
+      errors.value = [points];
       return null;
     }
     const provenance: Record<string, Provenance> = {};
@@ -276,14 +248,13 @@ export function PartForm(props: {
             );
           })}
         </div>
-        {meta.has_curve &&
-          lines(
-            'Curve: kPa gauge, free air L/min, current A; one point a line',
-            '/curve',
-            curve,
-            6,
-            'or what the sheet prints: free flow 12 L/min, 0.8 A',
-          )}
+        {meta.has_curve && (
+          <CurveField
+            text={curve.value}
+            errors={errors.value}
+            onChange={(text) => (curve.value = text)}
+          />
+        )}
         {lines(
           'Offers, net of tax: supplier | price | currency | pieces in the pack | date | link; one a line. The newest makes the price.',
           '/offers',

@@ -27,7 +27,12 @@ const sensorFields = [
   { name: 'sensor_resolution_kpa', label: 'Step of its readings', unit: 'kPa', usual: 0.1 },
   { name: 'sampling_hz', label: 'Readings a second', unit: 'Hz', usual: 100 },
   { name: 'bottle_l', label: 'Bottle', unit: 'L' },
-  { name: 'bottle_uncertainty', label: 'Uncertainty of its volume (weighed: 0.002)', usual: 0.02 },
+  {
+    name: 'bottle_uncertainty',
+    label: 'Uncertainty of its volume (weighed: 0.002)',
+    usual: 0.02,
+    isShare: true,
+  },
 ];
 
 function Tests({ id }: { id: string }) {

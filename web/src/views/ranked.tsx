@@ -10,6 +10,7 @@ import type { Answer, Design } from '../lib/types';
 import { type Brushes, Parallel } from '../plots/parallel';
 import { Scatter } from '../plots/scatter';
 import { Panel, Select } from '../ui/controls';
+import { counted } from '../lib/words';
 import { csv, saveFile } from '../ui/files';
 import { AgainstNominal } from './against_nominal';
 import { isAlike, picked, Table } from './ranked_table';
@@ -129,8 +130,8 @@ export function Ranked({
       <Panel
         title={
           rows.length === answer.designs.length
-            ? `${rows.length} designs`
-            : `${rows.length} of ${answer.designs.length} designs`
+            ? counted(rows.length, 'design')
+            : `${rows.length} of ${counted(answer.designs.length, 'design')}`
         }
         aside={
           <>

@@ -2,6 +2,7 @@
 import { edit, errorAt, numbers, requirements } from '../lib/requirements';
 import type { Configuration, PowerKind, PumpFeed, Regulation } from '../lib/types';
 import { areEvacuated, hasTank, haveVacuumRail, isRailPumped, vacuumSources } from '../lib/vacuum';
+import { familyWord } from '../lib/words';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 
@@ -14,6 +15,12 @@ const configurations: { value: Configuration; label: string }[] = [
   { value: 'tank_and_pump', label: 'Tank filled beforehand, with a pump' },
   { value: 'direct_pump', label: 'Pump without a reservoir' },
 ];
+
+// A design without such a part takes none of them.
+const onlyThese = (family: string): string =>
+  family === 'tubing'
+    ? 'Only one of these tubes'
+    : `If there is a ${familyWord(family)}${family === 'co2' ? ' bottle' : ''}, only one of these`;
 
 const giveWall = (on: boolean): void =>
   edit(
@@ -349,7 +356,7 @@ export function Conditions() {
       <div class="fields">
         <RequirementField
           label="Ambient pressure"
-          unit="kPa abs"
+          kind="absolute"
           path={['ambient', 'pressure_kpa_abs']}
           usual={100}
           range={[20, 200]}
@@ -379,7 +386,7 @@ export function Conditions() {
       {Object.entries(require ?? {}).map(([family, ids]) => (
         <IdList
           key={family}
-          label={`Only these of ${family}`}
+          label={onlyThese(family)}
           ids={ids}
           onChange={(next) => edit(['require', family], next.length ? next : undefined)}
         />

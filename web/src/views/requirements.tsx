@@ -7,6 +7,7 @@ import { asProblem, type FieldError, type Problem } from '../lib/api';
 import { fieldKind, inUnit } from '../lib/format';
 import { previousJob, start } from '../lib/jobs';
 import {
+  areRestored,
   edit,
   fieldErrors,
   load,
@@ -117,6 +118,14 @@ export function RequirementsView() {
             </button>
           </span>
         </div>
+        {areRestored.value && (
+          <Notice kind="info">
+            These are your requirements from before the page was loaded again.{' '}
+            <button type="button" class="small" onClick={() => load(presets.exosuit!)}>
+              Begin with the example
+            </button>
+          </Notice>
+        )}
         <p class="muted">
           Say what the actuators need: plenum chooses the parts of their air supply from the
           catalogue and proves that no other choice is better.

@@ -46,7 +46,8 @@ export function RigForm() {
     unit: '1 σ, share',
     optional: true,
     placeholder: 'exact',
-    hint: 'such as 0.03 for 3 %',
+    isShare: true,
+    hint: 'such as 0.03 or 3 %',
   });
   return (
     <Panel title="The rig it was measured on">

@@ -1,5 +1,5 @@
 // Keeps what a diagnosis established as a model revision, and ranks the requirements with it.
-import { useSignal } from '@preact/signals';
+import { signal, useSignal } from '@preact/signals';
 
 import { asProblem, post } from '../lib/api';
 import { start } from '../lib/jobs';
@@ -16,10 +16,22 @@ interface Saved {
   hash: string;
 }
 
-export function SaveModel({ diagnosis: d, model }: { diagnosis: Diagnosis; model: SavedModel }) {
-  const name = useSignal('');
+// What was saved of which diagnosis, as long as the window is open.
+const kept = 'plenum-saved-models';
+const savedOf = signal<Record<string, Saved>>(JSON.parse(sessionStorage.getItem(kept) ?? '{}'));
+
+export function SaveModel({
+  diagnosis: d,
+  id,
+  model,
+}: {
+  diagnosis: Diagnosis;
+  id: string;
+  model: SavedModel;
+}) {
+  const saved = savedOf.value[id] ?? null;
+  const name = useSignal(saved?.name ?? '');
   const problem = useSignal('');
-  const saved = useSignal<Saved | null>(null);
   const attempt = async (act: () => Promise<void>) => {
     try {
       problem.value = '';
@@ -29,16 +41,21 @@ export function SaveModel({ diagnosis: d, model }: { diagnosis: Diagnosis; model
     }
   };
   const save = async () => {
-    saved.value = await post<Saved>('/v1/models', { name: name.value, model });
+    const made = await post<Saved>('/v1/models', { name: name.value.trim(), model });
+    savedOf.value = { ...savedOf.value, [id]: made };
+    sessionStorage.setItem(kept, JSON.stringify(savedOf.value));
     await refreshModels();
   };
   const rank = async () => {
-    const revised = { ...requirements.value, model: saved.value!.name };
+    const revised = { ...requirements.value, model: ranked!.name };
     const job = await start(revised);
     load(revised);
     go(['designs', job]);
   };
-  const known = models.value.find((m) => m.name === name.value);
+  const known = models.value.find((m) => m.name === name.value.trim());
+  // A model that was saved before may be named, too.
+  const isSaved = saved !== null && ['', saved.name].includes(name.value.trim());
+  const ranked = known ?? (isSaved ? saved : null);
   const factors = Object.keys(model.factors);
   return (
     <Panel title="Save as a model revision and rank again">
@@ -68,16 +85,23 @@ export function SaveModel({ diagnosis: d, model }: { diagnosis: Diagnosis; model
         <button
           type="button"
           class="primary"
-          disabled={saved.value === null}
+          disabled={ranked === null}
           onClick={() => void attempt(rank)}
         >
-          Rank {requirements.value.name || 'the requirements'} with {saved.value?.name ?? 'it'}
+          Rank {requirements.value.name || 'the requirements'} with {ranked?.name ?? 'it'}
         </button>
       </div>
-      {saved.value && (
+      {saved ? (
         <p role="status">
-          Saved as {saved.value.name}, version {saved.value.version}.
+          Saved as {saved.name}, version {saved.version}.
         </p>
+      ) : (
+        known && (
+          <p class="hint">
+            {known.name}, version {known.version}, was saved before: it ranks with that one unless
+            this revision is saved.
+          </p>
+        )
       )}
     </Panel>
   );

@@ -5,7 +5,7 @@ import { useEffect } from 'preact/hooks';
 import { requirementName } from '../lib/amounts';
 import { asProblem } from '../lib/api';
 import { asDesigned, type Change, evaluate, type Evaluation } from '../lib/evaluation';
-import { change as changeOf } from '../lib/format';
+import { change as changeOf, pressuresInUnit } from '../lib/format';
 import { route, setQuery } from '../lib/route';
 import type { Design, Requirements } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
@@ -125,7 +125,9 @@ export function Sensitivities({
                 <td colSpan={used.length} class="muted">
                   {!found
                     ? 'not possible'
-                    : (found.detail ?? 'the parts do not stand it, or a stroke does not end')}
+                    : pressuresInUnit(
+                        found.detail ?? 'the parts do not stand it, or a stroke does not end',
+                      )}
                 </td>
               )}
               <td>{found?.works && <Then found={found} requirements={requirements} />}</td>

@@ -1,129 +1,28 @@
-// A sweep: made of the requirements and one of their values, then its table and a plot.
+// A sweep: its form, then its table and a plot.
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { objectiveName, objectiveUnit, placeInWords } from '../lib/amounts';
-import { ask, asProblem, get, type Problem } from '../lib/api';
-import { duration, percent, short, significant } from '../lib/format';
+import { objectiveName, objectiveUnit } from '../lib/amounts';
+import { ask, asProblem, get } from '../lib/api';
+import { duration, percent, significant } from '../lib/format';
 import { requirements } from '../lib/requirements';
-import { go, link, route } from '../lib/route';
-import {
-  cancelSweep,
-  evenly,
-  numbersOf,
-  startSweep,
-  type Sweep,
-  type SweepRow,
-  type SweepTable,
-  valuesOf,
-} from '../lib/sweeps';
+import { link, route } from '../lib/route';
+import { shownValue, type SweptField, sweptField } from '../lib/sweep_values';
+import { cancelSweep, type Sweep, type SweepRow, type SweepTable } from '../lib/sweeps';
+import { toShown } from '../lib/units';
 import { statusWord } from '../lib/words';
 import { Lines } from '../plots/lines';
-import { Chip, Notice, Panel, Segmented, Select, TextField } from '../ui/controls';
+import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
 import { ActionButton } from '../ui/job';
 import { number, Table } from '../ui/table';
+import { NewSweep } from './sweep_form';
 
 const periodMs = 1000;
 
 export function SweepView() {
   const id = route.value.path[1];
   return id ? <OneSweep key={id} id={id} /> : <NewSweep />;
-}
-
-function NewSweep() {
-  const document = requirements.value;
-  const fields = numbersOf(document).filter((pointer) => !pointer.startsWith('/ranking/'));
-  const field = useSignal(
-    fields.find((pointer) => pointer.endsWith('/frequency_hz')) ?? fields[0]!,
-  );
-  const how = useSignal<'list' | 'steps'>('list');
-  const list = useSignal('');
-  const from = useSignal('');
-  const to = useSignal('');
-  const steps = useSignal('5');
-  const problem = useSignal<Problem | null>(null);
-  const busy = useSignal(false);
-  const chosen = fields.includes(field.value) ? field.value : fields[0]!;
-  const nameOf = (pointer: string) => placeInWords(pointer, document.actuators);
-  const values =
-    how.value === 'list'
-      ? valuesOf(list.value)
-      : evenly(Number(from.value || NaN), Number(to.value || NaN), Number(steps.value || NaN));
-  const begin = async () => {
-    busy.value = true;
-    problem.value = null;
-    try {
-      go(['sweep', await startSweep(document, chosen, nameOf(chosen), values)]);
-    } catch (error) {
-      problem.value = asProblem(error);
-    } finally {
-      busy.value = false;
-    }
-  };
-  return (
-    <Panel first title="A sweep">
-      <p class="muted">
-        The <a href={link(['requirements'])}>requirements</a> are searched once for each value of
-        one of their numbers, in the units of the document; the answers stand in one table.
-      </p>
-      <form
-        noValidate
-        onSubmit={(event) => {
-          event.preventDefault();
-          void begin();
-        }}
-      >
-        <div class="toolbar">
-          <Select
-            label="Field"
-            value={chosen}
-            options={fields.map((pointer) => ({
-              value: pointer,
-              label: `${nameOf(pointer)} (${pointer})`,
-            }))}
-            onChange={(v) => (field.value = v)}
-          />
-          <Segmented
-            label="Given as"
-            value={how.value}
-            options={[
-              { value: 'list', label: 'a list' },
-              { value: 'steps', label: 'from – to' },
-            ]}
-            onChange={(v) => (how.value = v)}
-          />
-        </div>
-        {how.value === 'list' ? (
-          <TextField
-            label="Values"
-            hint="numbers with a blank between, as 0.05 0.1 0.2"
-            value={list.value}
-            onChange={(v) => (list.value = v)}
-          />
-        ) : (
-          <>
-            <TextField label="From" value={from.value} onChange={(v) => (from.value = v)} />
-            <TextField label="To" value={to.value} onChange={(v) => (to.value = v)} />
-            <TextField
-              label="How many values"
-              value={steps.value}
-              onChange={(v) => (steps.value = v)}
-            />
-          </>
-        )}
-        <p role="status">
-          {values.length === 0
-            ? 'No values yet.'
-            : `${values.length} searches: ${values.join(', ')}`}
-        </p>
-        {problem.value && <Notice kind="bad">{problem.value.sentence}</Notice>}
-        <button type="submit" class="primary" disabled={busy.value || values.length === 0}>
-          {busy.value ? 'Starting…' : 'Start the sweep'}
-        </button>
-      </form>
-    </Panel>
-  );
 }
 
 // The sweep and its table, asked for again until it has ended.
@@ -183,7 +82,9 @@ function OneSweep({ id }: { id: string }) {
         <p role="status">
           {left > 0
             ? `${table.rows.length - left} of ${table.rows.length} searches have ended.`
-            : `All ${table.rows.length} searches have ended.`}
+            : table.rows.length === 1
+              ? 'The search has ended.'
+              : `All ${table.rows.length} searches have ended.`}
         </p>
         <SweepPlot table={table} />
         <Rows table={table} />
@@ -201,11 +102,13 @@ function SweepPlot({ table }: { table: SweepTable }) {
   if (pointer === undefined || !table.objective || rows.length < 2) return null;
   const objective = { objective: table.objective };
   const unit = objectiveUnit(objective);
+  const field = sweptField(pointer, requirements.value.actuators);
   return (
     <Lines
-      title={`${objectiveName(objective)} against ${pointer}`}
-      x={rows.map((row) => row.values[0] as number)}
-      xLabel={pointer.split('/').pop()!}
+      title={`${objectiveName(objective)} against ${field.name}`}
+      x={rows.map((row) => toShown(field.kind, row.values[0] as number))}
+      xLabel={[field.name, field.unit].filter(Boolean).join(', ')}
+      xUnit={field.unit}
       yLabel={`${objectiveName(objective)}${unit && ` (${unit})`}`}
       lines={[
         {
@@ -219,8 +122,8 @@ function SweepPlot({ table }: { table: SweepTable }) {
   );
 }
 
-const valueText = (value: SweepRow['values'][number]): string =>
-  typeof value === 'number' ? short(value) : value === null ? '–' : String(value);
+const valueText = (field: SweptField, value: SweepRow['values'][number]): string =>
+  typeof value === 'number' ? shownValue(field, value) : value === null ? '–' : String(value);
 
 function Outcome({ row }: { row: SweepRow }) {
   const word = row.outcome && statusWord[row.outcome];
@@ -228,14 +131,14 @@ function Outcome({ row }: { row: SweepRow }) {
 }
 
 function Rows({ table }: { table: SweepTable }) {
+  const fields = table.varied.map((pointer) => sweptField(pointer, requirements.value.actuators));
   return (
     <Table
       label="Answers"
+      class="answers"
       heads={[
         'variant',
-        ...table.varied.map((pointer) =>
-          number(placeInWords(pointer, requirements.value.actuators)),
-        ),
+        ...fields.map((field) => number(field.name, field.unit)),
         'result',
         number('objective'),
         number('mass', 'kg'),
@@ -257,7 +160,7 @@ function Rows({ table }: { table: SweepTable }) {
           </th>
           {row.values.map((value, i) => (
             <td key={table.varied[i]} class="num">
-              {valueText(value)}
+              {valueText(fields[i]!, value)}
             </td>
           ))}
           <td>
@@ -268,7 +171,7 @@ function Rows({ table }: { table: SweepTable }) {
           <td class="num">{significant(row.volume_l, 4)}</td>
           <td class="num">{significant(row.cost_eur, 4)}</td>
           <td class="num">{percent(row.gap)}</td>
-          <td>{row.parts?.join('; ') ?? row.conflict ?? row.detail ?? '–'}</td>
+          <td class="parts-of">{row.parts?.join('; ') ?? row.conflict ?? row.detail ?? '–'}</td>
           <td class="num">{row.seconds === null ? '–' : duration(row.seconds)}</td>
         </tr>
       ))}

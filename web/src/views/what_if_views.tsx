@@ -3,7 +3,7 @@ import { useId } from 'preact/hooks';
 
 import { requirementName, requirementNumber, requirementUnit, sense } from '../lib/amounts';
 import type { Evaluation } from '../lib/evaluation';
-import { change as changeOf, shown, significant } from '../lib/format';
+import { change as changeOf, pressuresInUnit, shown, significant } from '../lib/format';
 import { seriesColours } from '../lib/theme';
 import type { Requirements, Response } from '../lib/types';
 import { type Kind, pressuresShown, toShown, unitOf } from '../lib/units';
@@ -147,7 +147,7 @@ export function Met({
       {!trial.works && (
         <Notice kind="warn">
           {trial.works === null
-            ? `It is not known whether it works: ${trial.detail}.`
+            ? `It is not known whether it works: ${pressuresInUnit(trial.detail ?? '')}.`
             : low === undefined
               ? 'A part is no longer in the catalogue.'
               : `It does not work: a stroke takes longer than half of the period, or the source is outside ${shown('pressure', low)} to ${shown('pressure', high)} ${unitOf('pressure')}.`}

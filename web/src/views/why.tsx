@@ -106,7 +106,7 @@ function sharesOf(design: Design): string {
   for (const { family, mass_kg } of design.parts)
     byFamily.set(family, (byFamily.get(family) ?? 0) + mass_kg);
   const most = [...byFamily].sort((a, b) => b[1] - a[1]).slice(0, 3);
-  return `. Of its mass, ${most.map(([family, kg]) => `${family} ${percent(kg / design.totals.mass_kg, 0)}`).join(', ')}.`;
+  return `. Of its mass, ${most.map(([family, kg]) => `${familyWord(family)} ${percent(kg / design.totals.mass_kg, 0)}`).join(', ')}.`;
 }
 
 function tightest(design: Design, answer: Answer) {
