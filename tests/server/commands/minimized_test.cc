@@ -48,8 +48,9 @@ TEST_F(Minimized, APriceThatIsNotWholeSaysSo) {
   const bool whole = answer["designs"][0]["totals"]["cost_eur"].is_number();
   EXPECT_THAT(text, testing::ContainsRegex(whole ? "Best: [0-9.]+ €, [0-9.]+ kg"
                                                  : "Best: ≥ [0-9.]+ €, [0-9.]+ kg"));
-  if (answer["price_basis"] == "lower_bound")
+  if (answer["price_basis"] == "lower_bound") {
     EXPECT_THAT(text, HasSubstr("Unknown prices count as 0"));
+  }
 }
 
 }  // namespace minimized_test
