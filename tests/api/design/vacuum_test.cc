@@ -179,9 +179,10 @@ TEST(VacuumTest, NamesWhatIsWrongWithARequest) {
   // Below ambient all the same: nothing else follows from what cannot be read.
   for (const char* text : {"-0.6 baar", "-60", " -60 kp", "-2 bar"})
     EXPECT_EQ(with([&](Json& r, Json& bag) {
-                r["actuators"].push_back(bag);
-                r["actuators"][1]["name"] = "second";
+                Json second = bag;
+                second["name"] = "second";
                 bag["operating_pressure_kpa_gauge"] = text;
+                r["actuators"].push_back(second);
               }),
               operating)
         << text;
