@@ -15,7 +15,7 @@ namespace plenum::test {
 
 // One beyond the last of plenum's.
 inline constexpr auto kFilter =
-    static_cast<optimizer::Family>(static_cast<int>(optimizer::Family::kCheckValve) + 1);
+    static_cast<optimizer::Family>(static_cast<int>(optimizer::Family::kVacuumReservoir) + 1);
 
 struct Filter {
   model::PartBasics basics;

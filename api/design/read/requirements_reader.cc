@@ -169,10 +169,9 @@ std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   return probability_min;
 }
 
-optimizer::Limits ReadLimits(Reader& request) {
-  optimizer::Limits limits;
+void ReadLimits(Reader& request, optimizer::Limits& limits) {
   auto reader = request.OptionalObject("limits");
-  if (!reader) return limits;
+  if (!reader) return;
   const auto read = [&](const char* name, int& limit) {
     limit = reader->Integer(name, 1, 16, limit);
   };
@@ -182,13 +181,12 @@ optimizer::Limits ReadLimits(Reader& request) {
   read("co2_max", limits.co2);
   read("reservoirs_max", limits.reservoirs);
   reader->Finish();
-  return limits;
 }
 
 // How many pieces and which parts there may be.
 void ReadChoices(Reader& request, const std::vector<catalog::Part>& parts,
                  optimizer::Problem& problem) {
-  problem.limits = ReadLimits(request);
+  ReadLimits(request, problem.limits);
   ReadSelection(request, parts, problem);
   CheckPower(request, problem);
 }

@@ -263,8 +263,9 @@ std::string VariantsText(const Json& design) {
 }
 
 std::string CostText(const Json& totals) {
-  return totals.at("cost_eur").is_number() ? Short(totals.at("cost_eur"))
-                                           : "≥ " + Short(totals.at("cost_eur_min"));
+  const Json known = totals.value("cost_eur_min", Json(0));
+  return totals.at("cost_eur").is_number() || known == 0 ? Short(totals.at("cost_eur"))
+                                                         : "≥ " + Short(known);
 }
 
 std::string QualityLine(const Json& answer) {

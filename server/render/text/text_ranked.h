@@ -28,7 +28,7 @@ std::string VariantsText(const api::Json& design);
 // How far the best design can be trusted: the first line that people read.
 std::string QualityLine(const api::Json& answer);
 
-// The cost of a design's totals, €; "≥ 49.0" where some price is unknown.
+// The cost of a design's totals, €; "≥ 49.0" where some price is unknown, "–" where all are.
 std::string CostText(const api::Json& totals);
 
 // The requirement that is met most closely; nullptr without any.

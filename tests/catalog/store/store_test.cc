@@ -69,9 +69,9 @@ TEST_F(StoreTest, MigratesFromNothingAndRecordsIt) {
   Write();
   Write();
   SQLite::Database db(path_.string());
-  EXPECT_EQ(db.execAndGet("PRAGMA user_version").getInt(), 4);
+  EXPECT_EQ(db.execAndGet("PRAGMA user_version").getInt(), 5);
   EXPECT_EQ(db.execAndGet("SELECT group_concat(name) FROM migration").getString(),
-            "0001_parts,0002_history,0003_models,0004_series_and_offers");
+            "0001_parts,0002_history,0003_models,0004_series_and_offers,0005_files");
   EXPECT_EQ(db.execAndGet("SELECT min(unixepoch(applied)) > 1.7e9 FROM migration").getInt(), 1);
   EXPECT_EQ(db.execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                           "type = 'table' AND name NOT LIKE 'sqlite%' AND NOT strict")
