@@ -129,9 +129,10 @@ const Operation& OperationOf(const std::string& method, const std::string& path)
       {"POST /{id}/again", {{}, "", {{202, "JobAccepted"}}, {404, 409, 429}}},
       {"GET /{id}/events", {{}, "", {{200, "Text", kEvents}}, {404, 429}}},
   };
+  const std::string name = method + " " + path;
   for (const auto* operations :
        {&Operations(), &DocumentOperations(), &SweepOperations(), &PageOperations()})
-    if (const auto found = operations->find(method + " " + path); found != operations->end())
+    if (const auto found = operations->find(name); found != operations->end())
       return found->second;
   for (const std::string jobs : {"/v1/designs", "/v1/diagnoses"})
     if (path.starts_with(jobs)) return kJobs.at(method + " " + path.substr(jobs.size()));

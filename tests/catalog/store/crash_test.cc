@@ -153,6 +153,7 @@ TEST_F(Crash, AddingReplacingAndRemovingAreAllOrNothing) {
 TEST_F(Crash, ImportingAndUndoingAreAllOrNothing) {
   std::mt19937 random(67);
   std::vector<Part> parts;
+  parts.reserve(kParts);
   for (int i = 0; i < kParts; ++i)
     parts.push_back(AnyPart(*FindFamily("compressor"), "p" + std::to_string(i), random));
   Write().Add(parts.front());

@@ -120,7 +120,7 @@ TEST(BothRails, TheVerifierRefusesWhatIsTamperedWith) {
   const auto refuses = [&](const char* field, double value) {
     Json other = answer;
     other["designs"][0]["settings"][field] = value;
-    return Refusals(other) != "";
+    return !Refusals(other).empty();
   };
   EXPECT_TRUE(refuses("vacuum_kpa_gauge", -45.0));
   EXPECT_TRUE(refuses("vacuum_stop_kpa_gauge", -50.0));
