@@ -132,8 +132,7 @@ const Operation& OperationOf(const std::string& method, const std::string& path)
   const std::string name = method + " " + path;
   for (const auto* operations :
        {&Operations(), &DocumentOperations(), &SweepOperations(), &PageOperations()})
-    if (const auto found = operations->find(name); found != operations->end())
-      return found->second;
+    if (const auto found = operations->find(name); found != operations->end()) return found->second;
   for (const std::string jobs : {"/v1/designs", "/v1/diagnoses"})
     if (path.starts_with(jobs)) return kJobs.at(method + " " + path.substr(jobs.size()));
   throw std::logic_error("no description of " + method + " " + path);
