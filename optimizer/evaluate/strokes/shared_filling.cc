@@ -225,15 +225,16 @@ class SharedFilling {
     return left;
   }
 
-  // Where nothing is left; near the node that was found last.
+  // Where nothing is left; near the node that was found last. Above no pressure at all, also where
+  // a step on trial is so long that a chamber's is below.
   double NodePressure(std::span<const double> y) const {
     double lowest_pa = source_pa_;
     for (std::size_t g = 0; g < groups_.size(); ++g)
       if (groups_[g].valve == Valve::kOpen) lowest_pa = std::min(lowest_pa, y[g]);
     return lowest_pa >= source_pa_
                ? source_pa_
-               : FallingRoot([&](double node_pa) { return LeftAndSlope(node_pa, y); }, lowest_pa,
-                             source_pa_, node_pa_);
+               : FallingRoot([&](double node_pa) { return LeftAndSlope(node_pa, y); },
+                             std::max(0.0, lowest_pa), source_pa_, node_pa_);
   }
 
   double NodeAt(std::span<const double> y) const {

@@ -58,6 +58,28 @@ TEST(FallingRootTest, SteepWhereAChamberIsFull) {
   }
 }
 
+TEST(FallingRootTest, EndsWithARootBelowZeroToo) {
+  for (const double guess : {-2.0, -0.1, 0.3, 1.0}) {
+    int calls = 0;
+    const auto line = [](double x) -> ValueAndSlope { return {-0.75 - x, -1.0}; };
+    EXPECT_NEAR(Root(line, -4.0, 1.0, guess, calls), -0.75, 1e-13);
+    EXPECT_LE(calls, 4);
+    const auto steep = [](double x) -> ValueAndSlope {
+      return {-std::cbrt(x + 0.75), -1.0 / (3.0 * std::pow(std::abs(x + 0.75), 2.0 / 3.0))};
+    };
+    EXPECT_NEAR(Root(steep, -4.0, 1.0, guess, calls), -0.75, 2e-13);
+    EXPECT_LE(calls, 80);
+  }
+}
+
+TEST(FallingRootTest, EndsOnNoNumbers) {
+  int calls = 0;
+  const auto none = [](double) -> ValueAndSlope { return {std::nan(""), std::nan("")}; };
+  Root(none, 1.0, 3.0, 2.0, calls);
+  Root(none, 1.0, 3.0, std::nan(""), calls);
+  EXPECT_LE(calls, 150);
+}
+
 TEST(FallingRootTest, AStepEndsWhereItJumps) {
   int calls = 0;
   const auto step = [](double x) -> ValueAndSlope { return {x < 2.5 ? 1.0 : -1.0, 0.0}; };
