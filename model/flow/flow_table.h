@@ -46,6 +46,7 @@ class FlowTable {
   std::array<Knot, kCells + 1> knots_{};
   struct Cubic {  // of a cell, and where a ratio lies in it
     double t, value, slope, square, cube;
+    double At() const { return value + t * (slope + t * (square + t * cube)); }
   };
   Cubic CubicAt(double ratio) const;
 };
@@ -53,15 +54,14 @@ class FlowTable {
 inline double FlowTable::operator()(double ratio) const {
   if (ratio <= choked_ratio_) return choked_flow_;
   if (ratio >= 1.0) return 0.0;
-  const Cubic cell = CubicAt(ratio);
-  const double u = cell.value + cell.t * (cell.slope + cell.t * (cell.square + cell.t * cell.cube));
+  const double u = CubicAt(ratio).At();
   return choked_flow_ * std::sqrt(u * (2.0 - u));
 }
 
 inline FlowTable::FlowAndSlope FlowTable::WithSlope(double ratio) const {
   if (ratio <= choked_ratio_) return {choked_flow_, 0.0};
   const Cubic cell = CubicAt(ratio);
-  const double u = cell.value + cell.t * (cell.slope + cell.t * (cell.square + cell.t * cell.cube));
+  const double u = cell.At();
   const double u_per_cell = cell.slope + cell.t * (2.0 * cell.square + cell.t * 3.0 * cell.cube);
   const double sine = std::sqrt(u * (2.0 - u));
   return {choked_flow_ * sine, -choked_flow_ * (1.0 - u) / sine * u_per_cell * cells_per_ratio_};

@@ -190,7 +190,7 @@ double Bounds::RegulatedFloor(const Box& box) const {
 Constraint Bounds::RestOfRegulated(Box& box) {
   const bool direct = IsDirect(plan_.configuration);
   const Inlet inlet = direct ? Inlet{} : InletOf(plan_, box);
-  const std::optional<RailNeed> rail = LeastOfRail(problem_, CandidateOf(box));
+  const auto rail = PumpsRail(problem_) ? LeastOfRail(problem_, CandidateOf(box)) : RailNeed{};
   if (!rail) return Constraint::kPump;
   double bound = inlet.objective + LeastOfPumps(plan_, box) +
                  EnergyShare(box.energy_beyond_j + rail->energy_j);

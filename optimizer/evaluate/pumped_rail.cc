@@ -13,9 +13,7 @@ namespace {
 
 constexpr double kTolerance = 1e-9;  // relative, of the rail's pressures
 
-bool OnRail(const Problem& problem, int g) {
-  return problem.groups[g].chamber.low_pressure_pa > 0.0;
-}
+bool OnRail(const ActuatorGroup& group) { return group.chamber.low_pressure_pa > 0.0; }
 
 // By how much so much air lets the rail rise, Pa.
 double RisePa(const Problem& problem, const RailSource& source, double air_m3) {
@@ -40,39 +38,48 @@ double PumpSeconds(const Problem& problem, const RailSource& source, double air_
                              problem.ambient.temperature_k);
 }
 
-// The groups on the rail, with what their lines take by its pressure.
+// What a group's line takes by the pressure of the rail.
+struct Fall {
+  model::Series exhaust;
+  model::Chamber chamber;
+  double target_pa, temperature_k;
+  double Seconds(double rail_pa) {
+    chamber.exhaust_pressure_pa = rail_pa;
+    return model::EmptyTime(exhaust, chamber, chamber.operating_pressure_pa, target_pa,
+                            temperature_k);
+  }
+};
+Fall FallOf(const Problem& problem, int g, const Line& line, double factor) {
+  return {model::MakeSeries(line.exhaust, factor), line.chamber,
+          FallTarget(problem, problem.groups[g]), problem.ambient.temperature_k};
+}
+
+// The groups on the rail, with what their falls may take.
 class Falls {
  public:
   Falls(const Problem& problem, std::span<const Line* const> lines, double factor) {
     for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
-      if (!OnRail(problem, g)) continue;
+      if (!OnRail(problem.groups[g])) continue;
       const ActuatorGroup& group = problem.groups[g];
-      falls_.push_back({model::MakeSeries(lines[g]->exhaust, factor), lines[g]->chamber,
-                        FallTarget(problem, group),
-                        std::min(group.fall_time_max_s, DeflateWindow(problem, g)),
-                        problem.ambient.temperature_k});
+      falls_.push_back({FallOf(problem, g, *lines[g], factor),
+                        std::min(group.fall_time_max_s, DeflateWindow(problem, g))});
     }
   }
 
   // The largest of what they are late by, relative.
   double Excess(double rail_pa) {
     double excess = -kUnlimited;
-    for (Fall& fall : falls_) excess = std::max(excess, fall.Seconds(rail_pa) / fall.limit_s - 1.0);
+    for (auto& [fall, limit_s] : falls_)
+      excess = std::max(excess, fall.Seconds(rail_pa) / limit_s - 1.0);
     return excess;
   }
 
  private:
-  struct Fall {
-    model::Series exhaust;
-    model::Chamber chamber;
-    double target_pa, limit_s, temperature_k;
-    double Seconds(double rail_pa) {
-      chamber.exhaust_pressure_pa = rail_pa;
-      return model::EmptyTime(exhaust, chamber, chamber.operating_pressure_pa, target_pa,
-                              temperature_k);
-    }
+  struct Limited {
+    Fall fall;
+    double limit_s;
   };
-  std::vector<Fall> falls_;
+  std::vector<Limited> falls_;
 };
 
 }  // namespace
@@ -80,14 +87,13 @@ class Falls {
 void SetRailFloor(double floor_pa, Problem& problem) {
   problem.rail_floor_pa = floor_pa;
   for (ActuatorGroup& group : problem.groups)
-    if (group.chamber.low_pressure_pa > 0.0) group.chamber.exhaust_pressure_pa = floor_pa;
+    if (OnRail(group)) group.chamber.exhaust_pressure_pa = floor_pa;
 }
 
 double HighestRailPa(const Problem& problem) {
   double highest_pa = problem.ambient.pressure_pa;
   for (const ActuatorGroup& group : problem.groups)
-    if (group.chamber.low_pressure_pa > 0.0)
-      highest_pa = std::min(highest_pa, group.chamber.low_pressure_pa);
+    if (OnRail(group)) highest_pa = std::min(highest_pa, group.chamber.low_pressure_pa);
   return highest_pa;
 }
 
@@ -104,7 +110,7 @@ RailSource RailSourceOf(const Problem& problem, const Candidate& candidate) {
 double RailAir(const Problem& problem, std::span<const Line* const> lines) {
   double air_m3 = 0.0;
   for (int g = 0; g < static_cast<int>(lines.size()); ++g)
-    if (OnRail(problem, g))
+    if (OnRail(problem.groups[g]))
       air_m3 +=
           problem.groups[g].gait.strokes_per_period * LeastAirPerStroke(problem, g, *lines[g]);
   return air_m3;
@@ -158,12 +164,8 @@ std::optional<double> WeakestRailPa(const Problem& problem, const RailSource& so
 }
 
 double FallAtRail(const Problem& problem, int g, const Line& line, model::Gas gas, double rail_pa) {
-  if (!OnRail(problem, g)) return line.fall_time_s;
-  model::Chamber chamber = line.chamber;
-  chamber.exhaust_pressure_pa = rail_pa;
-  return model::EmptyTime(model::MakeSeries(line.exhaust, FlowFactor(problem, gas)), chamber,
-                          chamber.operating_pressure_pa, FallTarget(problem, problem.groups[g]),
-                          problem.ambient.temperature_k);
+  if (!OnRail(problem.groups[g])) return line.fall_time_s;
+  return FallOf(problem, g, line, FlowFactor(problem, gas)).Seconds(rail_pa);
 }
 
 }  // namespace plenum::optimizer

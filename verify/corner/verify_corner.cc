@@ -164,20 +164,23 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const SourceBounds& first = sources.front();
   const double temperature_k = problem_.ambient.temperature_k;
   const double factor = FactorOf(problem_, plan_.configuration);
-  std::vector<const BestLine*> lines;
-  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
-    lines.push_back(&strokes_.Line(ranges, g));
-  if (shared_ && !first.some_open) {
-    if (TooSlowTogether(problem_,
-                        {first.regulator.Flow("sonic_conductance_dm3_per_s_bar"), factor,
-                         first.high_pa, first.flow_max},
-                        lines))
-      return kUnlimited;
-  }
+  const auto lines = [&] {
+    std::vector<const BestLine*> best;
+    best.reserve(problem_.groups.size());
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      best.push_back(&strokes_.Line(ranges, g));
+    return best;
+  };
+  if (shared_ && !first.some_open &&
+      TooSlowTogether(problem_,
+                      {first.regulator.Flow("sonic_conductance_dm3_per_s_bar"), factor,
+                       first.high_pa, first.flow_max},
+                      lines()))
+    return kUnlimited;
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
     chosen += ExcessBehind(ranges, g, plan_.own_regulators ? sources[g] : first);
   if (std::isinf(chosen)) return kUnlimited;
-  const double rail_j = rails_.Energy(ranges, lines);
+  const double rail_j = PumpsRail(problem_) ? rails_.Energy(ranges, lines()) : 0.0;
   if (std::isinf(rail_j)) return kUnlimited;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {

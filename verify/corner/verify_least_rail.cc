@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/physics/storage.h"
+#include "verify/corner/verify_ranges.h"
 
 namespace plenum::verify {
 
@@ -21,13 +22,8 @@ LeastRails::LeastRails(const Problem& problem, const ProofPlan& plan)
 
 bool LeastRails::Mates(const Ranges& ranges) const {
   if (pumps_ < 0 || batteries_ < 0) return true;
-  const auto any = [&](int slot, const auto& will_do) {
-    const std::vector<ProofItem>& choices = plan_.slots[slot].choices;
-    return std::any_of(choices.begin() + ranges[slot].first, choices.begin() + ranges[slot].second,
-                       will_do);
-  };
-  return any(pumps_, [&](const ProofItem& pump) {
-    return any(batteries_, [&](const ProofItem& pack) {
+  return Any(plan_, ranges, pumps_, [&](const ProofItem& pump) {
+    return Any(plan_, ranges, batteries_, [&](const ProofItem& pack) {
       return model::VoltageMatches(problem_.parts.batteries[pack.part].nominal_voltage_v,
                                    problem_.parts.vacuum_pumps[pump.part].curve.voltage_v);
     });

@@ -9,7 +9,6 @@ namespace plenum::api {
 namespace {
 
 constexpr std::size_t kFileNameBytesMax = 120;
-constexpr char kAnyType[] = "application/octet-stream";
 
 struct NamedType {
   std::string_view end, type;
@@ -24,7 +23,7 @@ constexpr NamedType kTypes[] = {
     {".jpeg", "image/jpeg"},
     {".zip", "application/zip"},
     {".xlsx", "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"},
-    {"", kAnyType}};
+    {"", kAnyMediaType}};
 
 // Without what an address has behind its path.
 std::string_view PathOf(std::string_view link) {

@@ -11,11 +11,13 @@
 
 namespace plenum::api {
 
+// The media type of what no other is known of.
+inline constexpr char kAnyMediaType[] = "application/octet-stream";
 // Media types that the file of a document may have. A page, which a browser would run, and types
 // that any page may send without being asked (text/plain, forms) are not among them.
 const std::vector<std::string_view>& DocumentTypes();
-// The one that a name or an address ends with: ".pdf", ".csv", …; application/octet-stream where
-// it is none of these.
+// The one that a name or an address ends with: ".pdf", ".csv", …; kAnyMediaType where it is none
+// of these.
 std::string MediaTypeOf(const std::string& link);
 
 // The name under which the file is saved: the last word of the link, without signs that a file

@@ -21,8 +21,6 @@ namespace {
 using catalog::DocumentFiles;
 using catalog::WriteStatus;
 
-constexpr char kAnyType[] = "application/octet-stream";
-
 Reply NoSuchPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
 
 Reply NoDocument(const std::string& id, const std::string& sha256) {
@@ -68,10 +66,10 @@ std::string Attachment(const std::string& name) {
 
 // What the client says of the body, or, where it says nothing, what the link ends with.
 std::string MediaTypeOf(const Call& call, const std::string& link) {
-  const std::string given = call.header("Content-Type").value_or(kAnyType);
+  const std::string given = call.header("Content-Type").value_or(api::kAnyMediaType);
   std::string type = LowerCase(given.substr(0, given.find(';')));
   type.erase(type.find_last_not_of(" \t") + 1);
-  return type == kAnyType ? api::MediaTypeOf(link) : type;
+  return type == api::kAnyMediaType ? api::MediaTypeOf(link) : type;
 }
 
 Reply Refused(const catalog::WriteResult& written, const std::string& id) {

@@ -7,7 +7,7 @@ import { placeInWords } from './amounts';
 import { asProblem, type FieldError, post } from './api';
 import { fieldKind, fieldName, inUnit, short } from './format';
 import { stepsOf, withValue } from './sweeps';
-import { readShare, readTyped, splitAmounts } from './typed';
+import { mayBeEither, readShare, readTyped, splitAmounts } from './typed';
 import type { Requirements } from './types';
 import { namesUnit, type Remarked } from './understood';
 import { fromShown, type Kind, toShown } from './units';
@@ -57,10 +57,7 @@ export function textsOf(list: string): string[] {
 function readHere(field: SweptField, text: string): SweptValue | null {
   const typed = field.takesUnits ? readTyped(text) : readShare(text, false);
   if (typeof typed === 'number') return { value: fromShown(field.kind, typed) };
-  if (typed === 'ambiguous')
-    return {
-      error: `“${text}” may be ${text.replace(',', '.')} or ${text.replace(',', '')}: write one of them`,
-    };
+  if (typed === 'ambiguous') return { error: `“${text}” ${mayBeEither(text)}` };
   return field.takesUnits && /\d/.test(text) ? null : { error: `“${text}” is no number` };
 }
 
@@ -92,7 +89,8 @@ export function useValues(
   texts: string[],
 ): SweptValue[] {
   const found = useSignal<Record<string, SweptValue>>({});
-  const toAsk = texts.filter((text) => readHere(field, text) === null);
+  const here = texts.map((text) => readHere(field, text));
+  const toAsk = texts.filter((_, i) => here[i] === null);
   useEffect(() => void (found.value = {}), [document, field.pointer]);
   useEffect(() => {
     let isOver = false;
@@ -110,7 +108,7 @@ export function useValues(
       clearTimeout(timer);
     };
   }, [document, field.pointer, toAsk.join('\n')]);
-  return texts.map((text) => readHere(field, text) ?? found.value[text] ?? {});
+  return texts.map((text, i) => here[i] ?? found.value[text] ?? {});
 }
 
 // So many values from one to another, even in the unit that is shown.

@@ -39,6 +39,10 @@ export function readTyped(text: string): Typed {
   return Number.isFinite(value) ? value : 'unreadable';
 }
 
+// What to say of an ambiguous text.
+export const mayBeEither = (text: string): string =>
+  `may be ${text.replace(',', '.')} or ${text.replace(',', '')}: write one of them`;
+
 // A share as a number, or in percent: "5 %" is 0.05, and 5 where the field counts in percent.
 export function readShare(text: string, inPercent: boolean): Typed {
   const percent = /^(.*?)\s*%$/.exec(text.trim());

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { inUnit, short } from '../lib/format';
-import { readShare, readTyped, type Typed } from '../lib/typed';
+import { mayBeEither, readShare, readTyped, type Typed } from '../lib/typed';
 import { fromShown, type Kind, toShown, unitOf } from '../lib/units';
 
 export function Panel(props: {
@@ -150,8 +150,7 @@ const needed = 'a number is needed here';
 
 // What is wrong with a text whatever the service says; nothing where it is the service's to judge.
 function wrongWith(text: string, typed: Typed, takesUnits = false): string | undefined {
-  if (typed === 'ambiguous')
-    return `may be ${text.replace(',', '.')} or ${text.replace(',', '')}: write one of them`;
+  if (typed === 'ambiguous') return mayBeEither(text);
   return typed === 'unreadable' && !takesUnits ? needed : undefined;
 }
 

@@ -4,7 +4,7 @@ import { useId } from 'preact/hooks';
 
 import type { FieldError } from '../lib/api';
 import { inUnit } from '../lib/format';
-import { readTyped, splitAmounts } from '../lib/typed';
+import { mayBeEither, readTyped, splitAmounts } from '../lib/typed';
 import type { CurvePoint, Part } from '../lib/types';
 import { fromShown, toShown, unitOf } from '../lib/units';
 
@@ -67,8 +67,7 @@ function readLine(line: string, number: number): GivenPoint | string {
   for (const [i, column] of columns.entries()) {
     const cell = cells[i]!;
     const typed = readTyped(cell);
-    if (typed === 'ambiguous')
-      return `line ${number}: “${cell}” may be ${cell.replace(',', '.')} or ${cell.replace(',', '')}: write one of them`;
+    if (typed === 'ambiguous') return `line ${number}: “${cell}” ${mayBeEither(cell)}`;
     if (typed === 'unreadable' && !/^[-+−]?[.,]?\d/.test(cell))
       return `line ${number}: the ${nameOf[column]} “${cell}” is no number`;
     point[column] = typeof typed === 'number' ? fromShown(kindOf(column), typed) : cell;

@@ -52,11 +52,7 @@ std::optional<double> ReadWall(Reader& vacuum, Kind kind, std::optional<double> 
                                           ": nothing regulates the wall's "
                                           "vacuum, not " +
                                           Decimal(kpa));
-  if (mains->Has("flow_l_per_min_anr_max")) {
-    mains->Raw("flow_l_per_min_anr_max");
-    mains->Fail("flow_l_per_min_anr_max",
-                "must be left out: the wall is taken to keep its vacuum whatever is drawn");
-  }
+  RefuseFlow(*mains);
   mains->Finish();
   return kpa;
 }
@@ -92,6 +88,13 @@ bool Holds(const catalog::Part& valve) {
 }
 
 }  // namespace
+
+void RefuseFlow(Reader& wall) {
+  constexpr char kField[] = "flow_l_per_min_anr_max";
+  if (!wall.Has(kField)) return;
+  wall.Raw(kField);
+  wall.Fail(kField, "must be left out: the wall is taken to keep its vacuum whatever is drawn");
+}
 
 bool HasVacuumRail(const optimizer::Problem& problem) {
   return std::any_of(

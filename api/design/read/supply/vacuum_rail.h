@@ -20,6 +20,9 @@ bool HasVacuumRail(const optimizer::Problem& problem);
 // those that go with it; fails where the request names others.
 void ReadVacuumRail(Reader& supply, optimizer::Problem& problem);
 
+// The wall's vacuum has no limit on its flow.
+void RefuseFlow(Reader& wall);
+
 // Whether a configuration may stand beside the vacuum.
 bool GoesWithVacuumRail(optimizer::Configuration configuration);
 

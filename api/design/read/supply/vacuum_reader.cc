@@ -47,11 +47,7 @@ void ReadWall(Reader& vacuum, bool asked, optimizer::Problem& problem) {
   problem.mains = {};
   const double kpa = mains->Number("pressure_kpa_gauge", {-problem.ambient.pressure_pa / 1e3, -1});
   problem.mains.pressure_pa = optimizer::PaFromKpaGauge(problem, kpa);
-  if (mains->Has("flow_l_per_min_anr_max")) {
-    mains->Raw("flow_l_per_min_anr_max");
-    mains->Fail("flow_l_per_min_anr_max",
-                "must be left out: the wall is taken to keep its vacuum whatever is drawn");
-  }
+  RefuseFlow(*mains);
   mains->Finish();
 }
 
