@@ -1,7 +1,5 @@
 #include "server/request_handler.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include "api/json/problem_document.h"
 #include "server/call/protection.h"
 #include "server/call/request_log.h"
+#include "server/jobs/job_memory.h"
 #include "server/resources/routes.h"
 #include "server/wire/write_answer.h"
 
@@ -288,7 +287,7 @@ void RequestHandler::Finish(Exchange& exchange, Reply reply, Outgoing& out) {
   Record(exchange, reply);
   WriteAnswer(std::move(reply), exchange.form, out);
   exchange.request.body = {};
-  if (exchange.bytes_in > kLargeBodyBytes) malloc_trim(0);
+  if (exchange.bytes_in > kLargeBodyBytes) ReturnFreeMemory();
 }
 
 void RequestHandler::Record(const Exchange& exchange, const Reply& reply) {

@@ -1,5 +1,6 @@
 #include "server/jobs/job_memory.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,12 @@ std::size_t ResidentBytes() {
   if (std::fscanf(file, "%zu %zu", &pages, &resident) != 2) resident = 0;
   std::fclose(file);
   return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+void ReturnFreeMemory() {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  malloc_trim(0);
 }
 
 std::unique_ptr<JobMemory::Share> JobMemory::Enter() {

@@ -15,6 +15,11 @@ namespace plenum::server {
 // Resident memory of the process (proc(5), statm).
 std::size_t ResidentBytes();
 
+// Free blocks of the heap go back to the system, for one thread at a time: glibc makes its heap
+// ready without a lock, and where no block was ever taken from it (a sanitizer has its own) two
+// threads would both count as the first (malloc/malloc.c, ptmalloc_init).
+void ReturnFreeMemory();
+
 class JobMemory {
  public:
   // `bytes_max`: of all searches together, beyond what the process had before the first of them.

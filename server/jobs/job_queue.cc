@@ -1,6 +1,5 @@
 #include "server/jobs/job_queue.h"
 
-#include <malloc.h>
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -112,7 +111,7 @@ void WorkBehindRequests() {
 void ReturnMemoryAfter(const std::function<void()>& work) {
   const std::size_t before = ResidentBytes();
   work();
-  if (ResidentBytes() > before + kMuchMemoryBytes) malloc_trim(0);
+  if (ResidentBytes() > before + kMuchMemoryBytes) ReturnFreeMemory();
 }
 
 }  // namespace plenum::server
