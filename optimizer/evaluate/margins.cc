@@ -31,6 +31,12 @@ MarginOf<T> CompressedAirMargin(const Problem& problem, const Candidate& candida
       T(kLPerMinPerM3PerS * CompressedAir(problem, ejector, candidate.compressor.quantity)));
 }
 
+// The wall gives energy without end, and a robot that names no energy.
+bool IsUnlimited(const Power& power) {
+  return power.kind == PowerKind::kWall ||
+         (power.kind == PowerKind::kRobot && !power.energy_wh_max);
+}
+
 // The source window keeps peaks within their limits (closing.h): who asks for the least margin
 // alone needs no number of them.
 enum class Peaks { kTold, kKept };
@@ -62,7 +68,7 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
   // A pump needs energy without end to come to the pressure at which it delivers nothing.
   const bool endless = std::isinf(model::ValueOf(evaluation.energy_total_j));
   const T by_energy = endless ? T(0.0)
-                      : evaluation.energy_per_cycle_j > 0.0
+                      : evaluation.energy_per_cycle_j > 0.0 && !IsUnlimited(problem.power)
                           ? T((evaluation.energy_available_j - evaluation.energy_first_fill_j) /
                               evaluation.energy_per_cycle_j)
                           : T(kUnlimited);

@@ -218,9 +218,12 @@ std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
   all["/duty/frequency_hz"] = {problem.frequency_hz, supply.frequency_hz, false, kEnergyTolerance};
   const double per_cycle_j = cycle.pump_j + cycle.electric_j() + supply.rail.per_cycle_j +
                              supply.refilled.energy_j / problem.actuations;
-  const double actuations = std::min(
-      supply.gas_m3 / cycle.air_m3,
-      per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j : kUnlimited);
+  const optimizer::Power& power = problem.power;
+  const bool stored = power.kind == optimizer::PowerKind::kBattery || power.energy_wh_max;
+  const double actuations =
+      std::min(supply.gas_m3 / cycle.air_m3,
+               stored && per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j
+                                           : kUnlimited);
   if (std::isfinite(actuations))
     all["/duty/actuations"] = {problem.actuations, actuations, false, kEnergyTolerance};
   at_most(Evacuated(problem) ? "/supply/vacuum/vacuum_kpa_gauge_min"

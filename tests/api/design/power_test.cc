@@ -2,6 +2,7 @@
 // batteries weigh nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "api/design/answer.h"
@@ -24,6 +25,13 @@ std::set<std::string> Families(const Json& design) {
   std::set<std::string> families;
   for (const Json& row : design["parts"]) families.insert(row["family"].get<std::string>());
   return families;
+}
+
+bool NamesActuations(const Json& design) {
+  const Json& margins = design["margins"];
+  return std::any_of(margins.begin(), margins.end(), [](const Json& margin) {
+    return margin["requirement"] == "/duty/actuations";
+  });
 }
 
 double First(const Json& answer) { return answer["designs"][0]["objective"].get<double>(); }
@@ -66,6 +74,7 @@ TEST(PowerTest, FromTheWallIsABatteryThatWeighsNothing) {
     EXPECT_FALSE(Families(design).contains("battery"));
     EXPECT_EQ(design["settings"]["power"]["kind"], "wall");
     EXPECT_GT(design["settings"]["power"]["voltage_v"].get<double>(), 1.0);
+    EXPECT_FALSE(NamesActuations(design));  // air and energy never end
   }
   EXPECT_EQ(Refusals(answer), "");
   Json request = Example("exosuit");
@@ -82,6 +91,7 @@ TEST(PowerTest, OfARobotHasItsVoltageEnergyAndCurrent) {
   EXPECT_EQ(Refusals(answer), "");
   for (const Json& design : answer["designs"])
     EXPECT_EQ(design["settings"]["power"], (Json{{"kind", "robot"}, {"voltage_v", 12.0}}));
+  for (const Json& design : answer["designs"]) EXPECT_FALSE(NamesActuations(design));
   Json request = Example("exosuit");
   request["ranking"] = {{"count", 1}};
   request["limits"]["batteries_max"] = 1;
@@ -90,7 +100,9 @@ TEST(PowerTest, OfARobotHasItsVoltageEnergyAndCurrent) {
   // 80 % of a battery's energy may be used; all of the robot's may be.
   Json least = robot;
   least["energy_wh_max"] = answer["designs"][0]["totals"]["energy_wh"].get<double>() * 1.001;
-  EXPECT_NEAR(First(Answered(Powered("exosuit", least))), First(answer), 1e-6 * First(answer));
+  const Json just_enough = Answered(Powered("exosuit", least));
+  EXPECT_NEAR(First(just_enough), First(answer), 1e-6 * First(answer));
+  EXPECT_TRUE(NamesActuations(just_enough["designs"][0]));
   least["energy_wh_max"] = answer["designs"][0]["totals"]["energy_wh"].get<double>() * 0.5;
   const Json with_less = Answered(Powered("exosuit", least));
   EXPECT_TRUE(with_less["designs"].empty() || First(with_less) > First(answer) * (1.0 + 1e-6));

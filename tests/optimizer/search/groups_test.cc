@@ -39,7 +39,7 @@ Problem Drawn(std::uint64_t seed, int groups, bool simultaneous, const Catalogue
 constexpr CatalogueSize kSmall{2, 2, 3, 1, 1, 2, 0, 1, 0}, kTiny{1, 2, 3, 1, 1, 2, 0, 1, 0};
 
 double Least(const Problem& problem) {
-  const Answer answer = optimizer::SearchTrees(problem, Within(20.0));
+  const Answer answer = optimizer::SearchTrees(problem, Within(200.0));
   EXPECT_TRUE(answer.proof.complete);
   return answer.designs.empty() ? optimizer::kUnlimited : answer.designs.front().objective;
 }
