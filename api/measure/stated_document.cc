@@ -71,7 +71,8 @@ Json RenderOwn(const StatedModel& model, std::size_t index, const Run& run) {
   if (state.phase_rad[index] != 0.0) own["phase_rad"] = Number(state.phase_rad[index]);
   for (const double late_s : state.late_s[index]) own["late_s"].push_back(Number(late_s));
   for (std::size_t k = 0; k < state.moved_s[index].size(); ++k)
-    own["valve_s"].push_back(Number(run.valve[k].time_s + state.moved_s[index][k]));
+    own["valve_s"].push_back(
+        Number(run.valve[k].time_s + calibration::MovedBy(run, index, k, state)));
   if (model.run_factor[index] != state.factor)
     own["factors"] = RenderFactors(model.run_factor[index]);
   if (!model.fitted_alone[index].empty()) own["fitted_alone"] = model.fitted_alone[index];

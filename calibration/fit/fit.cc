@@ -59,6 +59,10 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
     coordinates.push_back(coordinate);
   for (const Coordinate& coordinate : InstantCoordinates(data.forward->dataset(), data.runs))
     coordinates.push_back(coordinate);
+  if (!options.nuisance_only)
+    for (const Coordinate& coordinate :
+         SharedInstantCoordinates(data.forward->dataset(), data.runs))
+      coordinates.push_back(coordinate);
   if (options.nuisance_only) {
     std::erase_if(coordinates, [&](const Coordinate& coordinate) {
       const Declared number = coordinate.parameter.declared;

@@ -1,6 +1,7 @@
 #include "calibration/judge/identifiability.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -13,11 +14,24 @@ namespace {
 
 constexpr double kLeastCurvature = 1e-14;
 constexpr double kTakesPart = 0.25;  // of a unit eigenvector
+constexpr std::array<const char*, model::kValveStates> kStates{"hold", "inflate", "deflate"};
 
 // The deviation in u from which a coordinate counts as not fixed.
 double Unfixed(const Coordinate& coordinate) {
   const bool range = coordinate.kind == Coordinate::Kind::kLinear && !coordinate.prior;
   return kUnidentified * (range ? std::min(1.0, coordinate.high - coordinate.low) : 1.0);
+}
+
+bool IsStatedInstant(const Coordinate& coordinate) {
+  const Parameter::Kind kind = coordinate.parameter.kind;
+  return coordinate.prior &&
+         (kind == Parameter::Kind::kInstant || kind == Parameter::Kind::kSharedInstant);
+}
+
+// What is left to the others where number j is as well known as data and prior make it.
+void Eliminate(Eigen::Index j, Eigen::MatrixXd& curvature) {
+  const Eigen::VectorXd column = curvature.col(j);
+  curvature -= column * column.transpose() / column[j];
 }
 
 std::string Joined(const std::vector<std::string>& names) {
@@ -94,6 +108,8 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
     case Parameter::Kind::kInstant:
       return "instant of command " + std::to_string(parameter.number + 1) + " of " +
              dataset.runs[parameter.run].id;
+    case Parameter::Kind::kSharedInstant:
+      return std::string("instants of all commands to ") + kStates[parameter.number];
     case Parameter::Kind::kDeclared:
       break;
   }
@@ -102,23 +118,36 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
   return name + OfSpecimenInWords(dataset.specimens[parameter.specimen]);
 }
 
+// Without priors but those of stated instants, and beside those.
+static std::optional<Eigen::MatrixXd> CurvatureOfData(const FitData& data, const Fit& fit,
+                                                      const FitOptions& options) {
+  std::optional<Eigen::MatrixXd> curvature = Curvature(data, fit, options);
+  if (!curvature) return {};
+  for (Eigen::Index j = 0; j < curvature->rows(); ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    if (IsStatedInstant(coordinate))
+      Eliminate(j, *curvature);
+    else if (coordinate.prior)
+      (*curvature)(j, j) -= 1.0;
+  }
+  return curvature;
+}
+
 std::optional<Identifiability> Identify(const FitData& data, const Fit& fit,
                                         const FitOptions& options) {
-  std::optional<Eigen::MatrixXd> curvature = Curvature(data, fit, options);
+  const std::optional<Eigen::MatrixXd> curvature = CurvatureOfData(data, fit, options);
   if (!curvature) return {};
   const Dataset& dataset = data.forward->dataset();
   const auto size = static_cast<std::size_t>(curvature->rows());
   std::vector<std::string> names;
-  for (std::size_t j = 0; j < size; ++j) {
-    const auto at = static_cast<Eigen::Index>(j);
-    if (fit.coordinates[j].prior) (*curvature)(at, at) -= 1.0;
-    names.push_back(NameOf(fit.coordinates[j].parameter, fit.state, dataset));
-  }
+  for (const Coordinate& coordinate : fit.coordinates)
+    names.push_back(NameOf(coordinate.parameter, fit.state, dataset));
   Identifiability found;
   found.volume_uncertainty =
       dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)];
   std::vector<std::size_t> heard;  // not silent
   for (std::size_t j = 0; j < size; ++j) {
+    if (IsStatedInstant(fit.coordinates[j])) continue;
     const double alone = (*curvature)(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
     if (alone > std::pow(Unfixed(fit.coordinates[j]), -2))
       heard.push_back(j);

@@ -8,11 +8,12 @@
 //   silent   if that holds by itself already: no reading depends on it enough;
 //   aliased  if it holds together only: another number does the same to the readings.
 // Aliases are grouped by the eigenvectors of H scaled to a unit diagonal whose eigenvalues are
-// below kAliasEigenvalue. A prior may still fix each number of a group, but then it is the declared
-// value that speaks, not the data. A measured conductance, or what a pump delivers, that is aliased
-// with the rest volume alone is told by itself: it is known as well as that volume is. Source: Raue
-// et al., Bioinformatics 25 (2009) 1923 (structural and practical identifiability), to second order
-// in place of profiles.
+// below kAliasEigenvalue. Instants of stated uncertainty take no part: they are known to that, and
+// H is what is left beside them. A prior may still fix each number of a group, but then it is the
+// declared value that speaks, not the data. A measured conductance, or what a pump delivers, that
+// is aliased with the rest volume alone is told by itself: it is known as well as that volume is.
+// Source: Raue et al., Bioinformatics 25 (2009) 1923 (structural and practical identifiability), to
+// second order in place of profiles.
 #ifndef PLENUM_CALIBRATION_JUDGE_IDENTIFIABILITY_H_
 #define PLENUM_CALIBRATION_JUDGE_IDENTIFIABILITY_H_
 

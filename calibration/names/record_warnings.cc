@@ -1,6 +1,7 @@
 #include "calibration/names/record_warnings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -16,6 +17,34 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kInstantsTold = 6, kWildTold = 20;
+constexpr double kShiftTold = 2.0;  // in uncertainties of the instants
+constexpr std::array<const char*, model::kValveStates> kStates{"hold", "inflate", "deflate"};
+
+// What the commands to a state of the valve have in common, where it is more than was to be
+// expected.
+std::string SharedInWords(const Bench& bench, const ModelState& model, std::size_t state) {
+  double sum_s = 0.0, uncertainties_s = 0.0;
+  std::size_t commands = 0;
+  for (std::size_t i = 0; i < bench.dataset.runs.size(); ++i) {
+    const Run& run = bench.dataset.runs[i];
+    for (std::size_t k = 0; k < run.valve.size(); ++k) {
+      if (static_cast<std::size_t>(run.valve[k].state) != state || !SharesInstant(run, k)) continue;
+      ++commands;
+      sum_s += MovedBy(run, i, k, model);
+      uncertainties_s += InstantUncertainty(run, k);
+    }
+  }
+  if (commands < 2 || std::abs(sum_s) < kShiftTold * uncertainties_s) return {};
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "the commands to %s act %.3g ms %s the recorded instants, %.1f times what is stated "
+      "of them: the valve or the record of it is %s",
+      kStates[state], 1e3 * std::abs(sum_s) / static_cast<double>(commands),
+      sum_s > 0.0 ? "after" : "before", std::abs(sum_s) / uncertainties_s,
+      sum_s > 0.0 ? "late" : "early");
+  return text;
+}
 
 // "command 2 of r1 was fitted to be at 0.312 s": of those that no record has.
 std::string InstantsInWords(const Bench& bench, const ModelState& state) {
@@ -26,7 +55,8 @@ std::string InstantsInWords(const Bench& bench, const ModelState& state) {
     for (std::size_t k = 0; k < state.moved_s[i].size(); ++k) {
       if (InstantUncertainty(run, k) != kUnknown || ++found > kInstantsTold) continue;
       char text[64];
-      std::snprintf(text, sizeof text, " at %.4g s", run.valve[k].time_s + state.moved_s[i][k]);
+      std::snprintf(text, sizeof text, " at %.4g s",
+                    run.valve[k].time_s + MovedBy(run, i, k, state));
       words += (words.empty() ? "command " : ", command ") + std::to_string(k + 1) + " of " +
                run.id + text;
     }
@@ -125,6 +155,10 @@ void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
   if (const std::string instants = InstantsInWords(bench, diagnosis.models.after.state);
       !instants.empty())
     warnings.push_back("instants that are not known were found in the readings: " + instants);
+  for (std::size_t state = 0; state < model::kValveStates; ++state)
+    if (std::string shared = SharedInWords(bench, diagnosis.models.after.state, state);
+        !shared.empty())
+      warnings.push_back(std::move(shared));
   if (bench.data.clocks)
     warnings.push_back(
         "the clocks of readings and valve are off by a part of a sample; each run's was fitted");

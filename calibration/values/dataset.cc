@@ -106,6 +106,11 @@ double InstantUncertainty(const Run& run, std::size_t command) {
   return command < run.valve_uncertainty_s.size() ? run.valve_uncertainty_s[command] : 0.0;
 }
 
+bool SharesInstant(const Run& run, std::size_t command) {
+  const double uncertainty_s = InstantUncertainty(run, command);
+  return uncertainty_s > 0.0 && std::isfinite(uncertainty_s);
+}
+
 double FirstReading(const Run& run) {
   if (run.pressure_pa.empty()) return run.ambient.pressure_pa;
   const auto opens = std::find_if(

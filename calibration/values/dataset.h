@@ -153,6 +153,8 @@ double StartOf(const Run& run);
 
 // Of a command's instant; 0 where none is stated.
 double InstantUncertainty(const Run& run, std::size_t command);
+// Whether its error may be that of all commands to the same state: it is known to an uncertainty.
+bool SharesInstant(const Run& run, std::size_t command);
 
 // Mean of the readings before the valve first opens, at most ten; the first one if it is open from
 // the start, or if the volume is imposed. Absolute.

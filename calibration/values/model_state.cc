@@ -20,6 +20,8 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
       return state.late_s[parameter.run][parameter.number];
     case Parameter::Kind::kInstant:
       return state.moved_s[parameter.run][parameter.number];
+    case Parameter::Kind::kSharedInstant:
+      return state.shared_sigmas[parameter.number];
     case Parameter::Kind::kDeclared:
       break;
   }
@@ -61,6 +63,15 @@ void SetFactor(Declared number, double factor, ModelState& state) {
   if (!OfEachSpecimen(state, number)) return;
   std::vector<double>& of_specimens = state.specimen_factor[at];
   of_specimens.assign(of_specimens.size(), factor);
+}
+
+double MovedBy(const Run& run, std::size_t index, std::size_t command, const ModelState& state) {
+  const std::vector<double>& moved_s = state.moved_s[index];
+  double by_s = command < moved_s.size() ? moved_s[command] : 0.0;
+  if (SharesInstant(run, command))
+    by_s += state.shared_sigmas[static_cast<std::size_t>(run.valve[command].state)] *
+            InstantUncertainty(run, command);
+  return by_s;
 }
 
 double AmbientShift(const Run& run, const ModelState& state) {

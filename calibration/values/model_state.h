@@ -52,6 +52,9 @@ struct ModelState {
   std::vector<std::vector<double>> late_s;
   // By run and command, by how much its instant is after the recorded one; empty: by nothing.
   std::vector<std::vector<double>> moved_s;
+  // By state of the valve, by how many of its uncertainties each command to it is after that, too
+  // (SharesInstant of dataset.h).
+  std::array<double, model::kValveStates> shared_sigmas{};
 };
 
 // One number of a model state.
@@ -65,13 +68,14 @@ struct Parameter {
     kClock,
     kPhase,
     kLateness,
-    kInstant
+    kInstant,
+    kSharedInstant
   };
   Kind kind = Kind::kDeclared;
   Declared declared = Declared::kRestVolume;  // kDeclared
   std::size_t effect = 0, number = 0;  // kEffect: of the list, of its parameters; kMeasured: of
                                        // Dataset::measured; kLateness, kInstant: of the run's
-                                       // commands
+                                       // commands; kSharedInstant: of the valve's states
   std::size_t run = 0;                 // of one run's own number
   std::size_t specimen = 0;            // kDeclared: of a number that each specimen has
   bool operator==(const Parameter&) const = default;
@@ -96,6 +100,9 @@ inline bool SameFactors(const ModelState& a, const ModelState& b) {
 
 // One factor for all runs and specimens.
 void SetFactor(Declared number, double factor, ModelState& state);
+
+// By how much a command of run `index` comes after the recorded instant, its clock aside.
+double MovedBy(const Run& run, std::size_t index, std::size_t command, const ModelState& state);
 
 // By how much the run's ambient pressure is above the declared one.
 double AmbientShift(const Run& run, const ModelState& state);

@@ -20,6 +20,7 @@
 namespace plenum::model {
 
 enum class ValveState { kHold, kInflate, kDeflate };
+inline constexpr std::size_t kValveStates = 3;
 
 struct ValveCommand {
   double time_s = 0.0;

@@ -15,7 +15,7 @@
 namespace plenum::api {
 namespace {
 
-constexpr std::size_t kUncertainMax = 100;
+constexpr std::size_t kUnknownMax = 100;
 constexpr double kUncertaintyMaxS = 1e5;
 
 // A number of the range or "unknown", for which it stands `unknown`.
@@ -62,19 +62,21 @@ void ReadMeasuredValve(Reader& owner, calibration::Run& run) {
     return;
   }
   double last_s = 0.0;
-  std::size_t uncertain = 0;
+  std::size_t unknown = 0;
+  bool uncertain = false;
   for (const Element& element : owner.List("valve", 0, kCommandsMax)) {
     const Command read = ReadCommand(Reader(element, owner.errors()), last_s);
     run.valve.push_back(read.command);
     run.valve_uncertainty_s.push_back(read.uncertainty_s);
-    uncertain += read.uncertainty_s > 0.0;
+    unknown += read.uncertainty_s == calibration::kUnknown;
+    uncertain |= read.uncertainty_s > 0.0;
     if (!std::isnan(read.command.time_s)) last_s = read.command.time_s;
   }
-  if (uncertain == 0) run.valve_uncertainty_s.clear();
-  if (uncertain > kUncertainMax)
-    owner.Fail("valve", "must hold at most " + std::to_string(kUncertainMax) +
-                            " commands whose instants are not exact, not " +
-                            std::to_string(uncertain));
+  if (!uncertain) run.valve_uncertainty_s.clear();
+  if (unknown > kUnknownMax)
+    owner.Fail("valve", "must hold at most " + std::to_string(kUnknownMax) +
+                            " commands whose instants are not known, not " +
+                            std::to_string(unknown));
 }
 
 void FindInstants(Reader& owner, calibration::Run& run) {
@@ -83,7 +85,7 @@ void FindInstants(Reader& owner, calibration::Run& run) {
   };
   if (std::none_of(run.valve.begin(), run.valve.end(), unknown)) return;
   const auto count = std::count_if(run.valve.begin(), run.valve.end(), unknown);
-  if (static_cast<std::size_t>(count) > kUncertainMax || run.t_s.empty() ||
+  if (static_cast<std::size_t>(count) > kUnknownMax || run.t_s.empty() ||
       run.t_s.size() != run.pressure_pa.size())
     return;  // reported
   calibration::GuessInstants(run);

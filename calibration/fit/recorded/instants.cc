@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "calibration/values/crossing.h"
@@ -13,7 +15,8 @@ namespace {
 using model::ValveState;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kReadingsMax = 20'000;  // that a guess looks at
+constexpr double kHalf = 1.0 / std::numbers::sqrt2;  // of two errors that are independent
+constexpr std::size_t kReadingsMax = 20'000;         // that a guess looks at
 constexpr std::size_t kLeastWindow = 3, kMostWindow = 15, kWindowsPerCommand = 10;
 
 ValveState Before(const Run& run, std::size_t command) {
@@ -109,10 +112,64 @@ Curve FiniteReadings(const Run& run) {
   return curve;
 }
 
-// From a command to its neighbour: half of it where the neighbour may move, too.
+// From a command to its neighbour: half of it where the neighbour may move, too, and of that half
+// where a part of the error is shared.
 double RoomTo(const Run& run, std::size_t command, std::size_t neighbour) {
   const double room_s = std::abs(run.valve[neighbour].time_s - run.valve[command].time_s);
   return InstantUncertainty(run, neighbour) > 0.0 ? 0.5 * room_s : room_s;
+}
+
+// How far a command may be moved, in units of `scale`.
+struct Room {
+  double low = 0.0, high = 0.0;
+};
+
+Room RoomOf(const Run& run, std::size_t k, double scale) {
+  const double time_s = run.valve[k].time_s;
+  const double before_s = k > 0 ? RoomTo(run, k, k - 1) : time_s - StartOf(run);
+  const double after_s = k + 1 < run.valve.size() ? RoomTo(run, k, k + 1) : run.t_s.back() - time_s;
+  const double share = SharesInstant(run, k) ? 0.5 : 1.0;
+  const double most_s = kInstantSigmas * InstantUncertainty(run, k);
+  return {-std::min(most_s, share * before_s) / scale, std::min(most_s, share * after_s) / scale};
+}
+
+bool Shares(const Run& run, std::size_t command) {
+  return SharesInstant(run, command) && Turns(run, command);
+}
+
+bool HasOwnInstants(const Run& run) {
+  std::size_t shared = 0;
+  for (std::size_t k = 0; k < run.valve.size(); ++k) shared += Shares(run, k);
+  return shared <= kOwnInstantsMax;
+}
+
+// The commands of the runs to one state that share an error.
+template <class Each>
+void ForSharing(const Dataset& dataset, const std::vector<std::size_t>& runs, std::size_t state,
+                const Each& each) {
+  for (const std::size_t i : runs)
+    for (std::size_t k = 0; k < dataset.runs[i].valve.size(); ++k)
+      if (static_cast<std::size_t>(dataset.runs[i].valve[k].state) == state &&
+          Shares(dataset.runs[i], k))
+        each(dataset.runs[i], k);
+}
+
+// What of a command's uncertainty is its own and what is shared, of all runs of the data set.
+struct Parts {
+  double own = 1.0, shared = 0.0;
+};
+
+Parts PartsOf(const Dataset& dataset, std::size_t state) {
+  std::vector<std::size_t> all(dataset.runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::size_t commands = 0;
+  bool own = false;
+  ForSharing(dataset, all, state, [&](const Run& run, std::size_t) {
+    ++commands;
+    own |= HasOwnInstants(run);
+  });
+  if (commands < 2) return {};
+  return own ? Parts{kHalf, kHalf} : Parts{0.0, 1.0};
 }
 
 }  // namespace
@@ -122,27 +179,49 @@ std::vector<Coordinate> InstantCoordinates(const Dataset& dataset,
   std::vector<Coordinate> coordinates;
   for (const std::size_t i : runs) {
     const Run& run = dataset.runs[i];
+    const bool own = HasOwnInstants(run);
     for (std::size_t k = 0; k < run.valve.size(); ++k) {
       const double uncertainty_s = InstantUncertainty(run, k);
-      if (!(uncertainty_s > 0.0) || !Turns(run, k)) continue;
-      const double time_s = run.valve[k].time_s;
-      const double before_s = k > 0 ? RoomTo(run, k, k - 1) : time_s - StartOf(run);
-      const double after_s =
-          k + 1 < run.valve.size() ? RoomTo(run, k, k + 1) : run.t_s.back() - time_s;
+      const bool shares = SharesInstant(run, k);
+      if (!(uncertainty_s > 0.0) || !Turns(run, k) || (!own && shares)) continue;
+      const auto state = static_cast<std::size_t>(run.valve[k].state);
       Coordinate coordinate;
       coordinate.parameter = {.kind = Parameter::Kind::kInstant, .number = k, .run = i};
-      coordinate.prior = std::isfinite(uncertainty_s);
-      coordinate.scale = coordinate.prior ? uncertainty_s : IntervalOf(run);
-      const double most_s = kInstantSigmas * uncertainty_s;
-      coordinate.low = -std::min(most_s, before_s) / coordinate.scale;
-      coordinate.high = std::min(most_s, after_s) / coordinate.scale;
+      coordinate.prior = shares;
+      coordinate.scale = shares ? uncertainty_s * PartsOf(dataset, state).own : IntervalOf(run);
+      const Room room = RoomOf(run, k, coordinate.scale);
+      coordinate.low = room.low;
+      coordinate.high = room.high;
       if (coordinate.high > coordinate.low) coordinates.push_back(coordinate);
     }
   }
   return coordinates;
 }
 
+std::vector<Coordinate> SharedInstantCoordinates(const Dataset& dataset,
+                                                 const std::vector<std::size_t>& runs) {
+  std::vector<Coordinate> coordinates;
+  for (std::size_t state = 0; state < model::kValveStates; ++state) {
+    const double shared = PartsOf(dataset, state).shared;
+    if (!(shared > 0.0)) continue;
+    Coordinate coordinate;
+    coordinate.parameter = {.kind = Parameter::Kind::kSharedInstant, .number = state};
+    coordinate.prior = true;
+    coordinate.scale = shared;
+    Room least{-kUnknown, kUnknown};
+    ForSharing(dataset, runs, state, [&](const Run& run, std::size_t k) {
+      const Room room = RoomOf(run, k, shared * InstantUncertainty(run, k));
+      least = {std::max(least.low, room.low), std::min(least.high, room.high)};
+    });
+    coordinate.low = least.low;
+    coordinate.high = least.high;
+    if (std::isfinite(least.high) && least.high > least.low) coordinates.push_back(coordinate);
+  }
+  return coordinates;
+}
+
 bool NoInstantIsExact(const Run& run) {
+  if (!HasOwnInstants(run)) return false;
   for (std::size_t k = 0; k < run.valve.size(); ++k)
     if (Turns(run, k) && !(InstantUncertainty(run, k) > 0.0)) return false;
   return true;

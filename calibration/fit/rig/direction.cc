@@ -67,6 +67,12 @@ class Moved {
       case Parameter::Kind::kInstant:
         if (parameter.run == run_index) Add(group_.schedule[parameter.number].time_s, 1.0);
         break;
+      case Parameter::Kind::kSharedInstant:
+        for (std::size_t k = 0; k < run_.valve.size(); ++k)
+          if (SharesInstant(run_, k) &&
+              static_cast<std::size_t>(run_.valve[k].state) == parameter.number)
+            Add(group_.schedule[k].time_s, InstantUncertainty(run_, k));
+        break;
     }
     return direction_;
   }

@@ -125,8 +125,8 @@ void TakeSchedule(const Run& run, std::size_t index, const ModelState& state,
   for (const model::ValveCommand& command : run.valve)
     group.schedule.push_back(
         {command.time_s - StartOf(run) + state.clock_s[index], AsCrossed(command.state, run)});
-  for (std::size_t k = 0; k < state.moved_s[index].size(); ++k)
-    group.schedule[k].time_s += state.moved_s[index][k];
+  for (std::size_t k = 0; k < group.schedule.size(); ++k)
+    group.schedule[k].time_s += MovedBy(run, index, k, state);
   for (model::Effect& effect : group.effects) {
     double* lateness_s = NumberNamed(effect, model::kLatenessName);
     if (!lateness_s || state.late_s[index].empty()) continue;

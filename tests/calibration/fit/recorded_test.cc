@@ -75,12 +75,16 @@ TEST(Recorded, DerivativesOfGaugeAndInstantsAgreeWithDifferences) {
   at.factor[static_cast<std::size_t>(Declared::kSensorZero)] = 1.01;
   at.factor[static_cast<std::size_t>(Declared::kSensorGain)] = 0.98;
   at.moved_s[0] = {0.0, 0.013, -0.007, 0.031, 0.0};
+  const auto inflate = static_cast<std::size_t>(dataset.runs[0].valve[1].state);
+  at.shared_sigmas[inflate] = -0.4;
   const PredictOptions tight{.relative_tolerance = 1e-11};
-  const std::vector<Parameter> parameters = {{.declared = Declared::kSensorZero},
-                                             {.declared = Declared::kSensorGain},
-                                             {.declared = Declared::kRestVolume},
-                                             {.kind = Parameter::Kind::kInstant, .number = 1},
-                                             {.kind = Parameter::Kind::kInstant, .number = 3}};
+  const std::vector<Parameter> parameters = {
+      {.declared = Declared::kSensorZero},
+      {.declared = Declared::kSensorGain},
+      {.declared = Declared::kRestVolume},
+      {.kind = Parameter::Kind::kInstant, .number = 1},
+      {.kind = Parameter::Kind::kInstant, .number = 3},
+      {.kind = Parameter::Kind::kSharedInstant, .number = inflate}};
   const Prediction p = forward.Predict(0, at, parameters, tight);
   ASSERT_EQ(p.status, model::SimulateStatus::kDone) << p.detail;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -113,10 +117,12 @@ TEST(Recorded, UncertainInstantsAreFitted) {
   dataset.runs[0].valve_uncertainty_s.assign(5, 0.04);
   const Diagnosis d = Diagnose(dataset, {});
   EXPECT_EQ(d.verdict, Verdict::kAdequate) << d.sentence;
-  const std::vector<double>& moved_s = d.models.after.state.moved_s[0];
-  EXPECT_NEAR(moved_s.at(1), -0.06, 0.004);
-  EXPECT_NEAR(moved_s.at(2), -0.06, 0.004);
-  EXPECT_NEAR(moved_s.at(3), 0.04, 0.004);
+  const auto moved_s = [&](std::size_t command) {
+    return MovedBy(dataset.runs[0], 0, command, d.models.after.state);
+  };
+  EXPECT_NEAR(moved_s(1), -0.06, 0.004);
+  EXPECT_NEAR(moved_s(2), -0.06, 0.004);
+  EXPECT_NEAR(moved_s(3), 0.04, 0.004);
 }
 
 // Of a run that no fit saw, too.
@@ -156,6 +162,42 @@ TEST(Recorded, ALeakIsNamedBesideInstantsThatAreNotKnown) {
   EXPECT_EQ(d.effects.front().effect.spec->id, "leak");
 }
 
+// A logger that writes the vent a reading late each time makes no other effect: it is late by one
+// number, whether or not each command has an error of its own, too.
+TEST(Recorded, ALoggerThatIsLateHidesNoLeakAndIsNone) {
+  Dataset dataset = MeasuredBench(
+      [](EffectRig& rig) {
+        rig.leak = test::OrificeLeak{0.002e-8, 0.3};
+      },
+      46);
+  for (auto& run : dataset.runs) run.valve[3].time_s += 0.0195;
+  for (auto& run : dataset.runs) run.valve_uncertainty_s = {0.0, 0.0115, 0.0115, 0.0115, 0.0115};
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  ASSERT_EQ(d.effects.size(), 1u) << d.sentence;
+  EXPECT_EQ(d.effects.front().effect.spec->id, "leak");
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i)
+    EXPECT_NEAR(MovedBy(dataset.runs[i], i, 3, d.models.after.state), -0.0195, 0.004) << i;
+}
+
+TEST(Recorded, ManyCommandsHaveSharedErrorsAlone) {
+  Dataset dataset = MeasuredBench({}, 1, 0.0);
+  calibration::Run& run = dataset.runs[0];
+  run.valve.clear();
+  for (int i = 0; i < 10; ++i) {
+    run.valve.push_back({0.2 + 0.4 * i, model::ValveState::kInflate});
+    run.valve.push_back({0.4 + 0.4 * i, model::ValveState::kDeflate});
+  }
+  run.valve_uncertainty_s.assign(20, 0.01);
+  EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 0u);
+  EXPECT_EQ(SharedInstantCoordinates(dataset, {0}).size(), 2u);
+  run.valve_uncertainty_s[3] = kUnknown;  // each such one is sought
+  EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 1u);
+  run.valve_uncertainty_s.assign(20, 0.0);
+  for (std::size_t k = 0; k < 16; ++k) run.valve_uncertainty_s[k] = 0.01;
+  EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 16u);
+}
+
 TEST(Recorded, AnInstantStaysBetweenItsNeighbours) {
   Dataset dataset = MeasuredBench({}, 1, 0.0);
   dataset.runs[0].valve_uncertainty_s = {0.0, kUnknown, kUnknown, 0.05, 0.0};
@@ -166,6 +208,13 @@ TEST(Recorded, AnInstantStaysBetweenItsNeighbours) {
   EXPECT_NEAR(c[0].Number(c[0].low), -0.2, 1e-12);   // the command before is exact
   EXPECT_NEAR(c[0].Number(c[0].high), 0.45, 1e-12);  // half of the way to the next
   EXPECT_NEAR(c[2].Number(c[2].high), 0.25, 1e-12);  // five of its deviations
+  // Where two share an error, its own and the shared one are within the same room together.
+  dataset.runs[0].valve_uncertainty_s = {0.0, 0.2, 0.0, 0.0, 0.0};
+  dataset.runs[1].valve_uncertainty_s = {0.0, 0.2, 0.0, 0.0, 0.0};
+  const std::vector<Coordinate> own = InstantCoordinates(dataset, {0, 1});
+  const std::vector<Coordinate> shared = SharedInstantCoordinates(dataset, {0, 1});
+  ASSERT_EQ(shared.size(), 1u);
+  EXPECT_NEAR(own[0].Number(own[0].low) + 0.2 * shared[0].Number(shared[0].low), -0.2, 1e-12);
 }
 
 // Readings of 20 kPa to either side of the guess: nothing to find.

@@ -104,6 +104,18 @@ TEST(RecordingDialects, TheDocumentedColumns) {
   }));
 }
 
+// A row tells what the valve is told then, not since when; nor is there a row before the first.
+TEST(RecordingDialects, InstantsAreKnownToTheRowBefore) {
+  const std::string csv =
+      "t_s,valve,pressure_kpa_gauge\n0,hold,0\n0.03,inflate,1\n0.05,inflate,9\n0.06,hold,10\n";
+  const CsvReading reading = ReadMeasurementCsv(csv, Rig());
+  const Json& valve = reading.document["runs"][0]["valve"];
+  ASSERT_EQ(valve.size(), 3u);
+  EXPECT_FALSE(valve[0].contains("uncertainty_s"));
+  EXPECT_NEAR(valve[1]["uncertainty_s"].get<double>(), 0.0173205, 1e-6);
+  EXPECT_NEAR(valve[2]["uncertainty_s"].get<double>(), 0.0057735, 1e-6);
+}
+
 TEST(RecordingDialects, DecimalCommaAndSemicolon) {
   ExpectRecording(Table(
       "Zeit [s];Druck [kPa];Ventil\r\n",
