@@ -1,11 +1,13 @@
 #include "api/measure/diagnose_request.h"
 
+#include <chrono>
 #include <utility>
 #include <vector>
 
 #include "api/measure/fitted/bottles.h"
 #include "api/measure/inputs_document.h"
 #include "api/measure/revision_of_diagnosis.h"
+#include "api/measure/valve/row_instants.h"
 #include "calibration/diagnose.h"
 #include "catalog/store/content_hash.h"
 
@@ -22,7 +24,34 @@ void AddRemarks(Remarks remarks, Json& answer) {
   remarks.AddTo(answer);
 }
 
-DiagnosisAnswer DiagnoseRuns(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
+// With instants known to a row where that leaves only noise and exact ones do not; the request says
+// so then.
+calibration::Diagnosis DiagnoseAlsoByRows(DiagnosisRequest& request,
+                                          calibration::DiagnoseOptions options) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  calibration::Diagnosis exact = calibration::Diagnose(request.dataset, options);
+  const std::chrono::duration<double> taken = Clock::now() - start;
+  options.time_limit_s -= taken.count();
+  if (!AsksForRows(exact) || !AreOfRows(request.measurement, request.dataset) ||
+      options.time_limit_s <= 0.0 || (options.cancelled && options.cancelled()))
+    return exact;
+  DiagnosisRequest by_rows = request;
+  SayOfRows(by_rows.measurement, by_rows.dataset);
+  if (options.progress)
+    options.progress = [tell = options.progress](double, const std::string& what) {
+      tell(0.99, what + ", with the valve's instants known to a reading");
+    };
+  calibration::Diagnosis of_rows = calibration::Diagnose(by_rows.dataset, options);
+  if (!IsBetterOfRows(exact, of_rows)) return exact;
+  of_rows.warnings.push_back(
+      "the valve's commands stand at times of readings and were taken to be known to one reading: "
+      "with exact instants less is explained. Say \"uncertainty_s\": 0 of a command that is exact");
+  request = std::move(by_rows);
+  return of_rows;
+}
+
+DiagnosisAnswer DiagnoseRuns(DiagnosisRequest request, const DiagnosisProgress& progress) {
   calibration::DiagnoseOptions options;
   options.cancelled = progress.cancelled;
   options.progress = progress.progress;
@@ -31,7 +60,7 @@ DiagnosisAnswer DiagnoseRuns(const DiagnosisRequest& request, const DiagnosisPro
       request.model
           ? calibration::Predict(request.dataset, {request.model->effects, request.model->factors},
                                  options)
-          : calibration::Diagnose(request.dataset, options);
+          : DiagnoseAlsoByRows(request, options);
   DiagnosisAnswer answer;
   answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
   AddRemarks(request.remarks, answer.answer);

@@ -21,6 +21,7 @@ std::function<void(Run&)> Times(double readings, double commands) {
   return [=](Run& run) {
     for (double& t_s : run.t_s) t_s *= readings;
     for (model::ValveCommand& command : run.valve) command.time_s *= commands;
+    for (double& uncertainty_s : run.valve_uncertainty_s) uncertainty_s *= commands;
   };
 }
 

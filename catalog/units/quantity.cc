@@ -1,5 +1,6 @@
 #include "catalog/units/quantity.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -232,11 +233,29 @@ std::string UnitNames(std::string_view field) {
   return names;
 }
 
+// "every 3 s" and "once every minute" as a frequency; none: the text says no such thing.
+static std::optional<double> OnceEvery(std::string_view text) {
+  std::string words(text);
+  if (!words.empty())
+    words[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(words[0])));
+  constexpr std::string_view kOnce = "once ", kEvery = "every ";
+  if (words.starts_with(kOnce)) words.erase(0, kOnce.size());
+  if (!words.starts_with(kEvery)) return {};
+  const std::string period = words.substr(kEvery.size());
+  const bool counts = !period.empty() && (std::isdigit(period[0]) != 0 || period[0] == '.');
+  const Quantity read =
+      ParseQuantity((counts ? "" : "1 ") + period, "period_s", {.needs_unit = true});
+  if (!read.value || !(*read.value > 0.0)) return {};
+  return 1.0 / *read.value;
+}
+
 Quantity ParseQuantity(std::string_view text, std::string_view field,
                        const QuantityContext& context) {
   if (!context.needs_unit)
     if (const auto bare = ParseNumber(text)) return {bare, "", ""};
   const Dimension& dimension = DimensionOf(field);
+  if (dimension.suffix == "_hz")
+    if (const auto often = OnceEvery(text)) return {often, "", ""};
   const auto refused = [&](const std::string& why) {
     return Quantity{std::nullopt,
                     std::string("must be a finite number, ") +

@@ -36,7 +36,8 @@ struct QuantityContext {
 //   _l_per_min[_anr]    L/min, L/s, m3/h, scfm, cfm, each also with ANR (ISO 8778); normal litres
 //                       only with 0 °C or 20 °C behind them: NL/min (0 °C), NL/min, 20 °C
 //   _dm3_per_s_bar      dm3/(s·bar), L/(s·bar), L/(min·bar), m3/(s·Pa)
-//   _s, _ms             s, ms, us, min, h              _hz         Hz, mHz, kHz, 1/min
+//   _s, _ms             s, ms, us, min, h              _hz         Hz, mHz, kHz, 1/min, rpm, and
+//                                                                  "every 3 s": once in that time
 //   _k                  K, °C, °F                      _deg        °, rad
 //   _v V mV kV · _a A mA · _ah Ah mAh · _w W mW kW · _wh Wh kWh J kJ · _eur EUR € · _eur_per_m
 //   EUR/m _l_per_min_bar      L/(min·bar), L/(s·bar)         _rad_per_s  rad/s, Hz without a unit

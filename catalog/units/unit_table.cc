@@ -102,8 +102,19 @@ constexpr Unit kMetres[] = {
     {"ft", 0.3048},
 };
 constexpr Unit kSquareMillimetres[] = {{"mm2"}, {"cm2", 100}, {"in2", 645.16}};
-constexpr Unit kSeconds[] = {
-    {"s"}, {"ms", 1, 1000}, {"us", 1, 1e6, 0, {}, true}, {"min", 60}, {"h", 3600}};
+constexpr Unit kSeconds[] = {{"s"},
+                             {"ms", 1, 1000},
+                             {"us", 1, 1e6, 0, {}, true},
+                             {"min", 60},
+                             {"h", 3600},
+                             {"sec", 1, 1, 0, {}, true},
+                             {"second", 1, 1, 0, {}, true},
+                             {"seconds", 1, 1, 0, {}, true},
+                             {"minute", 60, 1, 0, {}, true},
+                             {"minutes", 60, 1, 0, {}, true},
+                             {"hr", 3600, 1, 0, {}, true},
+                             {"hour", 3600, 1, 0, {}, true},
+                             {"hours", 3600, 1, 0, {}, true}};
 constexpr Unit kMilliseconds[] = {{"ms"}, {"us", 1, 1000}, {"s", 1000}, {"min", 60000}};
 constexpr Unit kHertz[] = {{"Hz"},
                            {"hz", 1, 1, 0, {}, true},
@@ -113,7 +124,14 @@ constexpr Unit kHertz[] = {{"Hz"},
                            {"1/min", 1, 60},
                            {"/min", 1, 60, 0, {}, true},
                            {"permin", 1, 60, 0, {}, true},
-                           {"perminute", 1, 60, 0, {}, true}};
+                           {"perminute", 1, 60, 0, {}, true},
+                           {"rpm", 1, 60, 0, {}, true},
+                           {"cpm", 1, 60, 0, {}, true},
+                           {"bpm", 1, 60, 0, {}, true},
+                           {"/s", 1, 1, 0, {}, true},
+                           {"persecond", 1, 1, 0, {}, true},
+                           {"/h", 1, 3600, 0, {}, true},
+                           {"perhour", 1, 3600, 0, {}, true}};
 constexpr Unit kKelvin[] = {{"K"},
                             {"°C", 1, 1, 273.15},
                             {"degC", 1, 1, 273.15, {}, true},

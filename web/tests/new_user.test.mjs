@@ -22,11 +22,12 @@ async function designGripper(page) {
     ['Rise time, at most', '300 ms'],
     ['Fall time, at most', '400 ms'],
     ['Tube length', '1.2 m'],
-    ['Frequency', '30 per minute'],
-    ['Actuations', '2000'],
+    ['Frequency', 'every 2 s'],
+    ['Actuations', '4000 s'],
   ];
   for (const [label, text] of texts) await page.getByLabel(label, { exact: true }).fill(text);
   await page.getByText('read as 0.5 Hz').waitFor();
+  await page.getByText('read as 2 000 actuations').waitFor();
   await page.getByText('These requirements can be searched.').waitFor();
   await page.getByRole('button', { name: 'Find the best designs' }).click();
   await listed(page);

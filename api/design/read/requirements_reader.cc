@@ -17,11 +17,13 @@
 #include "api/design/read/supply/vacuum_rail.h"
 #include "api/design/read/supply/vacuum_reader.h"
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/measure/model_document.h"
+#include "catalog/units/quantity.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::api {
@@ -33,10 +35,38 @@ const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 
 constexpr auto& kAllConfigurations = optimizer::kPressureConfigurations;
 
+constexpr int kActuationsMax = 1'000'000'000;
+
+// A whole number, or for how long: "2 h" is as many as begin in that time.
+int ReadActuations(Reader& duty, double frequency_hz) {
+  const Json* given = duty.Raw("actuations");
+  if (given == nullptr || !given->is_string()) {
+    const int actuations = duty.Integer("actuations", 1, kActuationsMax);
+    const Json whole = {{"type", "integer"}, {"minimum", 1}, {"maximum", kActuationsMax}};
+    duty.Describe("actuations", {{"anyOf", {whole, {{"type", "string"}}}}});
+    return actuations;
+  }
+  const std::string& text = given->get_ref<const std::string&>();
+  const catalog::Quantity time = catalog::ParseQuantity(text, "run_time_s", {.needs_unit = true});
+  const double actuations = std::ceil(Rounded(time.value.value_or(0.0) * frequency_hz));
+  if (!(actuations >= 1.0 && actuations <= kActuationsMax)) {
+    duty.Fail(
+        "actuations",
+        "must be a whole number ≥ 1 and ≤ 1e9, or for how long, as \"2 h\", not " + Quoted(text));
+    return 1;
+  }
+  if (RemarkRecorder* remarks = RemarkRecorder::Current())
+    remarks->Understood(duty.Pointer("actuations"), {{"given", text},
+                                                     {"value", actuations},
+                                                     {"unit", "actuations"},
+                                                     {"formula", "time · frequency_hz"}});
+  return static_cast<int>(actuations);
+}
+
 void ReadDuty(Reader& request, optimizer::Problem& problem) {
   Reader duty = request.Object("duty");
   problem.frequency_hz = duty.Number("frequency_hz", FrequencyRange());
-  problem.actuations = duty.Integer("actuations", 1, 1'000'000'000);
+  problem.actuations = ReadActuations(duty, problem.frequency_hz);
   problem.simultaneous = duty.Bool("simultaneous", true);
   duty.Finish();
 }

@@ -14,6 +14,7 @@
 #include "api/measure/csv/table_options.h"
 #include "api/measure/csv/understood.h"
 #include "api/measure/csv/valve_cells.h"
+#include "api/measure/valve/row_instants.h"
 
 namespace plenum::api {
 namespace {
@@ -76,15 +77,14 @@ Json ListOf(const std::vector<double>& values) {
 }
 
 // A row tells what the valve is told then, not since when: the instant lies between it and the row
-// before, or, where the command is sent as the row is written, at the row. So it stands at the row,
-// with the deviation from there of what is anywhere between the two.
+// before, or, where the command is sent as the row is written, at the row.
 Json ScheduleOf(const RecordedRun& run) {
   Json valve = Json::array();
   for (std::size_t i = 0; i < run.states.size(); ++i) {
     if (i > 0 && run.states[i] == run.states[i - 1]) continue;
     valve.push_back({{"t_s", run.t_s[i]}, {"state", run.states[i]}});
     const double row_s = i > 0 ? run.t_s[i] - run.t_s[i - 1] : 0.0;
-    if (row_s > 0.0) valve.back()["uncertainty_s"] = row_s / std::sqrt(3.0);
+    if (row_s > 0.0) valve.back()["uncertainty_s"] = UncertaintyOfRow(row_s);
   }
   return valve;
 }

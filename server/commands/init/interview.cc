@@ -29,16 +29,35 @@ constexpr char kSupplyNote[] =
     "Sources that may be chosen: cylinder (compressed air), co2, compressor (pump, reservoir and "
     "battery), mains (wall supply), tank (filled beforehand), direct_pump (no reservoir). May also "
     "hold source_pressure_kpa_gauge_max, mass_kg_max, volume_l_max, cost_eur_max.";
+constexpr char kEvacuatedNote[] =
+    "Actuators below ambient are evacuated: to rise is to evacuate, to fall to let air in. They "
+    "have "
+    "a supply of vacuum. May also hold mass_kg_max, volume_l_max, cost_eur_max.";
+constexpr char kVacuumNote[] =
+    "Sources that may be chosen: pump (with reservoir and battery, or straight to the lines), "
+    "ejector (needs mains beside vacuum in supply). May also hold vacuum_kpa_gauge_min, the "
+    "deepest "
+    "vacuum of a reservoir.";
 constexpr char kMainsNote[] = "Pressure and flow of the wall supply.";
+constexpr double kDefaultExpansion = 2.0, kDefaultVacuumKpa = -50.0;
 constexpr char kObjectiveNote[] = "mass_kg, volume_l, cost_eur or energy_wh.";
 constexpr char kRankingNote[] = "Designs in the list, and seconds for the search.";
 
+Json NewMains() {
+  return {{"note", kMainsNote}, {"pressure_kpa_gauge", 600.0}, {"flow_l_per_min_anr_max", 200.0}};
+}
+
 Json NewGroup(const std::string& name) {
-  return {
-      {"note", kGroupNote},     {"name", name},           {"count", 4},
-      {"rest_volume_ml", 50.0}, {"expansion_ratio", 2.0}, {"operating_pressure_kpa_gauge", 100.0},
-      {"tube_length_m", 0.5},   {"fittings_per_line", 2}, {"rise_time_s_max", 0.5},
-      {"fall_time_s_max", 0.6}};
+  return {{"note", kGroupNote},
+          {"name", name},
+          {"count", 4},
+          {"rest_volume_ml", 50.0},
+          {"expansion_ratio", kDefaultExpansion},
+          {"operating_pressure_kpa_gauge", 100.0},
+          {"tube_length_m", 0.5},
+          {"fittings_per_line", 2},
+          {"rise_time_s_max", 0.5},
+          {"fall_time_s_max", 0.6}};
 }
 
 Json NewDocument() {
@@ -110,16 +129,43 @@ std::string ShownBefore(const Json& value) {
   return words;
 }
 
+// Below ambient, as a number or a text.
+bool IsEvacuated(const Json& group) {
+  const Json& pressure = group.at("operating_pressure_kpa_gauge");
+  if (pressure.is_string()) return pressure.get_ref<const std::string&>().starts_with('-');
+  return pressure.is_number() && pressure.get<double>() < 0.0;
+}
+
+bool Evacuates(const Json& document) { return IsEvacuated(document.at("actuators").at(0)); }
+
+// Of evacuated actuators the first says that the supply is one of vacuum; a volume that was to grow
+// is rigid until it is asked for.
+void CompleteVacuum(Json& document) {
+  for (Json& group : document["actuators"])
+    if (IsEvacuated(group) && group["expansion_ratio"] == kDefaultExpansion)
+      group["expansion_ratio"] = 1.0;
+  Json& supply = document["supply"];
+  if (!supply.contains("vacuum"))
+    supply = {{"note", kEvacuatedNote},
+              {"vacuum", {{"note", kVacuumNote}, {"configurations", {"pump"}}}}};
+  const Json& names = supply["vacuum"]["configurations"];
+  const bool ejector = std::find(names.begin(), names.end(), "ejector") != names.end();
+  if (!ejector)
+    supply.erase("mains");
+  else if (!supply.contains("mains"))
+    supply["mains"] = NewMains();
+}
+
 // A wall supply is described where it may be chosen, and only there.
 void CompleteSupply(Json& document) {
+  if (Evacuates(document)) return CompleteVacuum(document);
   Json& supply = document["supply"];
   const Json& names = supply["configurations"];
   const bool mains = std::find(names.begin(), names.end(), "mains") != names.end();
   if (!mains)
     supply.erase("mains");
   else if (!supply.contains("mains"))
-    supply["mains"] = {
-        {"note", kMainsNote}, {"pressure_kpa_gauge", 600.0}, {"flow_l_per_min_anr_max", 200.0}};
+    supply["mains"] = NewMains();
 }
 
 // A name that no group has yet.
@@ -176,6 +222,9 @@ class Asking {
   void AddGroup() {
     Json& groups = document_["actuators"];
     groups.push_back(NewGroup(FreeName(groups)));
+    if (!Evacuates(document_)) return;
+    groups.back()["operating_pressure_kpa_gauge"] = kDefaultVacuumKpa;
+    groups.back()["expansion_ratio"] = 1.0;
   }
 
   const Json& document() const { return document_; }
@@ -199,7 +248,12 @@ void AskGroup(Asking& asking, std::size_t index) {
   asking.Ask(group + "count", "How many of them");
   asking.Ask(group + "rest_volume_ml", "Volume of one without pressure", "mL");
   asking.Ask(group + "expansion_ratio", "Volume at the operating pressure over that volume");
-  asking.Ask(group + "operating_pressure_kpa_gauge", "Operating pressure, gauge", "kPa");
+  const bool grows =
+      asking.document().at("actuators").at(index).at("expansion_ratio") == kDefaultExpansion;
+  asking.Ask(group + "operating_pressure_kpa_gauge",
+             "Operating pressure, gauge (below 0: evacuated)", "kPa");
+  if (grows && IsEvacuated(asking.document().at("actuators").at(index)))
+    asking.Ask(group + "expansion_ratio", "Volume when evacuated over that volume, at most 1");
   asking.Ask(group + "tube_length_m", "Length of the tube to each", "m");
   asking.Ask(group + "rise_time_s_max", "Longest time to fill to 95 %", "s");
   asking.Ask(group + "fall_time_s_max", "Longest time to vent to 5 %", "s");
@@ -220,8 +274,11 @@ Json AskRequirements(Interview& interview) {
   if (groups > 1) asking.Ask("/duty/simultaneous", "All groups at once");
   asking.Ask("/duty/frequency_hz", "Cycles a second", "Hz");
   asking.Ask("/duty/actuations", "Cycles without refill or recharge");
-  asking.Ask("/supply/configurations",
-             "Sources, of cylinder, co2, compressor, mains, tank, direct_pump");
+  if (Evacuates(asking.document()))
+    asking.Ask("/supply/vacuum/configurations", "Sources of vacuum, of pump, ejector");
+  else
+    asking.Ask("/supply/configurations",
+               "Sources, of cylinder, co2, compressor, mains, tank, direct_pump");
   if (asking.document().at("supply").contains("mains")) {
     asking.Ask("/supply/mains/pressure_kpa_gauge", "Pressure of the wall supply, gauge", "kPa");
     asking.Ask("/supply/mains/flow_l_per_min_anr_max", "Most flow of the wall supply", "L/min");

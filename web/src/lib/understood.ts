@@ -89,6 +89,9 @@ export const namesUnit = (name: string): boolean =>
     name,
   );
 
+// What requirements take as a text, too: a number with its unit; of actuations for how long.
+export const takesText = (name: string): boolean => namesUnit(name) || name === 'actuations';
+
 // Numbers without a unit, among them the limits on numbers of parts.
 const namesNumber = (name: string): boolean =>
   /^(count|fittings_per_line|contraction|cells|actuations|probability_min|\w+_(ratio|fraction|max))$/.test(

@@ -2,7 +2,7 @@
 // with another unit may stand in its place; the service reads it, and the field says what it read.
 import { short } from '../lib/format';
 import { edit, errorAt, requirements, understoodAt, valueAt, warningAt } from '../lib/requirements';
-import { namesUnit } from '../lib/understood';
+import { takesText } from '../lib/understood';
 import { toShown, unitOf } from '../lib/units';
 import { NumberField, type NumberFieldProps } from '../ui/controls';
 
@@ -26,7 +26,7 @@ export function RequirementField(
       value={valueAt(requirements.value, path) as number | string | null | undefined}
       pointer={pointer}
       error={errorAt(pointer)}
-      takesUnits={namesUnit(String(path.at(-1)))}
+      takesUnits={takesText(String(path.at(-1)))}
       {...(read !== undefined && { read })}
       {...(warning !== undefined && { warning })}
       onText={(text) => {

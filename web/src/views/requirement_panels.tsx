@@ -307,11 +307,12 @@ export function Duty() {
           unit="Hz"
           path={['duty', 'frequency_hz']}
           range={[1e-4, 100]}
+          hint="or every 3 s"
         />
         <RequirementField
           label="Actuations"
           path={['duty', 'actuations']}
-          hint="without refill or recharge"
+          hint="without refill or recharge, or for how long: 2 h"
         />
         <RequirementField
           label="Rise counts up to"
