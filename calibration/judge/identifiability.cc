@@ -113,7 +113,7 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
     case Parameter::Kind::kDeclared:
       break;
   }
-  const std::string name(Name(parameter.declared));
+  std::string name(Name(parameter.declared));
   if (!OfEachSpecimen(state, parameter.declared)) return name;
   return name + OfSpecimenInWords(dataset.specimens[parameter.specimen]);
 }

@@ -140,7 +140,7 @@ bool Shares(const Run& run, std::size_t command) {
 bool HasOwnInstants(const Run& run) {
   std::size_t shared = 0;
   for (std::size_t k = 0; k < run.valve.size(); ++k) shared += Shares(run, k);
-  return shared <= kOwnInstantsMax;
+  return shared * run.t_s.size() <= kOwnInstantsMax;
 }
 
 // The commands of the runs to one state that share an error.

@@ -189,7 +189,10 @@ TEST(Recorded, ManyCommandsHaveSharedErrorsAlone) {
     run.valve.push_back({0.4 + 0.4 * i, model::ValveState::kDeflate});
   }
   run.valve_uncertainty_s.assign(20, 0.01);
-  EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 0u);
+  EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 20u);
+  run.t_s.clear();
+  for (int i = 0; i < 2500; ++i) run.t_s.push_back(0.002 * i);
+  EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 0u);  // each is a derivative of 2,500 readings
   EXPECT_EQ(SharedInstantCoordinates(dataset, {0}).size(), 2u);
   run.valve_uncertainty_s[3] = kUnknown;  // each such one is sought
   EXPECT_EQ(InstantCoordinates(dataset, {0}).size(), 1u);

@@ -61,6 +61,7 @@ TEST(JobMemory, ManyThreadsReturnTheirsAtOnce) {
     constexpr int kThreads = 8;
     std::atomic<int> ready = 0;
     std::vector<std::thread> threads;
+    threads.reserve(kThreads);
     for (int i = 0; i < kThreads; ++i)
       threads.emplace_back([&ready] {
         ++ready;

@@ -95,22 +95,6 @@ TEST(Requirements, LeavesOutPartsThatAreExcludedOrNotRequired) {
             (std::set<std::string>{"valve-2", "tubing-1", "tubing-2"}));
 }
 
-TEST(Requirements, ActuationsMayBeATime) {
-  const auto problem_of = [](Json duty) {
-    Json request = Parse(R"({ "schema": "requirements/1",
-      "actuators": [ { "rest_volume_ml": 50, "expansion_ratio": 2,
-                       "operating_pressure_kpa_gauge": 100, "tube_length_m": 0.5 } ] })");
-    request["duty"] = std::move(duty);
-    return Good(request).problem;
-  };
-  const optimizer::Problem often =
-      problem_of({{"frequency_hz", "every 3 s"}, {"actuations", "2 h"}});
-  EXPECT_NEAR(often.frequency_hz, 1.0 / 3.0, 1e-12);
-  EXPECT_EQ(often.actuations, 2400);
-  EXPECT_EQ(problem_of({{"frequency_hz", 0.3}, {"actuations", "1 min"}}).actuations, 18);
-  EXPECT_EQ(problem_of({{"frequency_hz", 0.3}, {"actuations", "61 s"}}).actuations, 19);
-}
-
 TEST(Requirements, FillsInDefaults) {
   const DesignRequest request = Good(Parse(R"({ "schema": "requirements/1",
     "actuators": [ { "rest_volume_ml": 50, "expansion_ratio": 2,
