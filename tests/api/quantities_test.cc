@@ -286,6 +286,11 @@ TEST(Quantities, ActuationsMayBeATime) {
   EXPECT_EQ(often.actuations, 2400);
   EXPECT_EQ(problem_of({{"frequency_hz", 0.3}, {"actuations", "1 min"}}).actuations, 18);
   EXPECT_EQ(problem_of({{"frequency_hz", 0.3}, {"actuations", "61 s"}}).actuations, 19);
+  for (const char* text : {"2 bar", "-2 h", "1e9 h", "long"}) {
+    Json request = Requirements();
+    request["duty"]["actuations"] = text;
+    EXPECT_THAT(DetailOf(request, "/duty/actuations"), HasSubstr("for how long")) << text;
+  }
 }
 
 }  // namespace quantities_test
