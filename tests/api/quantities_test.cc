@@ -208,7 +208,8 @@ TEST(Notes, StandInEveryObjectAndComeBackUnchanged) {
       for (std::size_t i = 0; i < at.size(); ++i)
         self(self, at[i], pointer + "/" + std::to_string(i));
     if (!at.is_object()) return;
-    for (auto& [name, value] : at.items()) self(self, value, pointer + "/" + name);
+    for (auto& [name, value] : at.items())
+      self(self, value, std::string(pointer).append("/").append(name));
     at["note"] = "measured on “Tuesday” at " + pointer;
     given[pointer] = at["note"];
   };
