@@ -56,10 +56,8 @@ int ReadActuations(Reader& duty, double frequency_hz) {
     return 1;
   }
   if (RemarkRecorder* remarks = RemarkRecorder::Current())
-    remarks->Understood(duty.Pointer("actuations"), {{"given", text},
-                                                     {"value", actuations},
-                                                     {"unit", "actuations"},
-                                                     {"formula", "time · frequency_hz"}});
+    remarks->Understood(duty.Pointer("actuations"),
+                        {{"given", text}, {"value", actuations}, {"unit", "actuations"}});
   return static_cast<int>(actuations);
 }
 

@@ -50,7 +50,7 @@ TEST(Init, ActuatorsBelowAmbientGetASupplyOfVacuum) {
   // Two groups; the volume that was to grow is asked for again.
   const auto outcome = bench.Run("init my.json",
                                  "picker\ncup\n4\n12\n\n-0.6 bar\n0.9\n1\n300 ms\n300 ms\nyes\n"
-                                 "jam\n1\n250\n0.85\n-10 psi\n1\n0.8\n0.8\nno\nno\n0.2\n5000\n"
+                                 "jam\n1\n250\n0.85\n-10 psi\n1\n0.8\n0.8\nno\nno\nevery 5 s\n2 h\n"
                                  "ejector\n6 bar\n200\nmass_kg\n");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json document = Document(ReadAll(bench.Path("my.json")));
@@ -60,8 +60,9 @@ TEST(Init, ActuatorsBelowAmbientGetASupplyOfVacuum) {
   EXPECT_FALSE(document["supply"].contains("configurations"));
   EXPECT_EQ(document["supply"]["vacuum"]["configurations"], Json::array({"ejector"}));
   EXPECT_EQ(document["supply"]["mains"]["pressure_kpa_gauge"], "6 bar");
-  const auto designed = bench.Run("design my.json --top 1 --json");
+  const auto designed = bench.Run("design my.json --top 1");
   ASSERT_EQ(designed.status, 0) << designed.err;
+  EXPECT_THAT(designed.out, HasSubstr("\"2 h\" = 1440 actuations"));
   const auto mixed =
       bench.Run("init other.json", "picker\ncup\n4\n12\n1\n-60\n1\n1\n1\nyes\njam\n1\n9\n1\n80\n");
   EXPECT_EQ(mixed.status, 2);  // pressures of either kind are no one request
