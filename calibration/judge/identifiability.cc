@@ -1,7 +1,6 @@
 #include "calibration/judge/identifiability.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -14,7 +13,6 @@ namespace {
 
 constexpr double kLeastCurvature = 1e-14;
 constexpr double kTakesPart = 0.25;  // of a unit eigenvector
-constexpr std::array<const char*, model::kValveStates> kStates{"hold", "inflate", "deflate"};
 
 // The deviation in u from which a coordinate counts as not fixed.
 double Unfixed(const Coordinate& coordinate) {
@@ -109,7 +107,7 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
       return "instant of command " + std::to_string(parameter.number + 1) + " of " +
              dataset.runs[parameter.run].id;
     case Parameter::Kind::kSharedInstant:
-      return std::string("instants of all commands to ") + kStates[parameter.number];
+      return "what instants share";
     case Parameter::Kind::kDeclared:
       break;
   }

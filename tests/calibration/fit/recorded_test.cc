@@ -180,6 +180,17 @@ TEST(Recorded, ALoggerThatIsLateHidesNoLeakAndIsNone) {
     EXPECT_NEAR(MovedBy(dataset.runs[i], i, 3, d.models.after.state), -0.0195, 0.004) << i;
 }
 
+TEST(Recorded, WhatCommandsShareIsToldWhereItIsMuch) {
+  Dataset dataset = MeasuredBench({}, 47);
+  for (auto& run : dataset.runs) {
+    run.valve[1].time_s -= 0.035;
+    run.valve_uncertainty_s = {0.0, 0.0115, 0.0115, 0.0115, 0.0115};
+  }
+  const Diagnosis d = Diagnose(dataset, {});
+  EXPECT_THAT(d.warnings, testing::Contains(testing::HasSubstr("the commands to inflate act 3")));
+  EXPECT_THAT(d.warnings, testing::Not(testing::Contains(testing::HasSubstr("to deflate act"))));
+}
+
 TEST(Recorded, ManyCommandsHaveSharedErrorsAlone) {
   Dataset dataset = MeasuredBench({}, 1, 0.0);
   calibration::Run& run = dataset.runs[0];
