@@ -84,10 +84,13 @@ class JobCrash : public testing::Test {
       RecoverJobs(*store, Marks());
       const CrashMarks marks(Marks());
       std::atomic<int> running = 0;
+      std::atomic<bool> told = false;
       JobTurns turns;
       Jobs jobs(*store, turns, "design",
                 [&](const JobOrder& order, const JobControl&) -> api::Parsed<api::Json> {
-                  if (++running > 1) std::ofstream(bench_.Path("together"), std::ios::app) << "x";
+                  // Once: a third may begin while a sanitizer still reports the first one's end.
+                  if (++running > 1 && !told.exchange(true))
+                    std::ofstream(bench_.Path("together"), std::ios::app) << "x";
                   std::this_thread::sleep_for(50ms);  // so that both that may run do
                   auto result = Do(order);
                   --running;
