@@ -97,7 +97,6 @@ Bench BenchOf(const Dataset& dataset, const std::vector<std::size_t>& runs, doub
   pattern.pressure_pa.clear();
   pattern.valve.clear();
   pattern.valve_uncertainty_s.clear();
-  pattern.valve_uncertainty_s.clear();
   pattern.t_s.clear();
   return bench;
 }

@@ -59,10 +59,6 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
     coordinates.push_back(coordinate);
   for (const Coordinate& coordinate : InstantCoordinates(data.forward->dataset(), data.runs))
     coordinates.push_back(coordinate);
-  if (!options.nuisance_only)
-    for (const Coordinate& coordinate :
-         SharedInstantCoordinates(data.forward->dataset(), data.runs))
-      coordinates.push_back(coordinate);
   if (options.nuisance_only) {
     std::erase_if(coordinates, [&](const Coordinate& coordinate) {
       const Declared number = coordinate.parameter.declared;
@@ -74,6 +70,8 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
     });
     return coordinates;
   }
+  for (const Coordinate& coordinate : SharedInstantCoordinates(data.forward->dataset(), data.runs))
+    coordinates.push_back(coordinate);
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);

@@ -35,10 +35,10 @@ const Json* ValveOf(const Json& measurement, std::size_t run) {
 }
 
 std::size_t CausesOf(const Diagnosis& diagnosis) {
-  std::size_t causes = diagnosis.effects.size() + diagnosis.numbers.size();
-  for (const auto& tied : diagnosis.tied)
-    causes = &tied == &diagnosis.tied.front() ? tied.size() : std::min(causes, tied.size());
-  return causes;
+  const auto fewer = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+  const auto& tied = diagnosis.tied;
+  return tied.empty() ? diagnosis.effects.size() + diagnosis.numbers.size()
+                      : std::min_element(tied.begin(), tied.end(), fewer)->size();
 }
 
 // Causes but those that act in time, which instants take up.

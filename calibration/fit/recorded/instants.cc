@@ -1,10 +1,10 @@
 #include "calibration/fit/recorded/instants.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "calibration/values/crossing.h"
@@ -15,8 +15,8 @@ namespace {
 using model::ValveState;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-constexpr double kHalf = 1.0 / std::numbers::sqrt2;  // of two errors that are independent
-constexpr std::size_t kReadingsMax = 20'000;         // that a guess looks at
+constexpr double kOfTwo = 1.0 / std::numbers::sqrt2;  // of two errors that are independent
+constexpr std::size_t kReadingsMax = 20'000;          // that a guess looks at
 constexpr std::size_t kLeastWindow = 3, kMostWindow = 15, kWindowsPerCommand = 10;
 
 ValveState Before(const Run& run, std::size_t command) {
@@ -112,14 +112,13 @@ Curve FiniteReadings(const Run& run) {
   return curve;
 }
 
-// From a command to its neighbour: half of it where the neighbour may move, too, and of that half
-// where a part of the error is shared.
+// From a command to its neighbour: half of it where the neighbour may move, too.
 double RoomTo(const Run& run, std::size_t command, std::size_t neighbour) {
   const double room_s = std::abs(run.valve[neighbour].time_s - run.valve[command].time_s);
   return InstantUncertainty(run, neighbour) > 0.0 ? 0.5 * room_s : room_s;
 }
 
-// How far a command may be moved, in units of `scale`.
+// How far a command may be moved, in units of `scale`: half as far where it has two errors.
 struct Room {
   double low = 0.0, high = 0.0;
 };
@@ -143,39 +142,35 @@ bool HasOwnInstants(const Run& run) {
   return shared * run.t_s.size() <= kOwnInstantsMax;
 }
 
-// The commands of the runs to one state that share an error.
-template <class Each>
-void ForSharing(const Dataset& dataset, const std::vector<std::size_t>& runs, std::size_t state,
-                const Each& each) {
-  for (const std::size_t i : runs)
-    for (std::size_t k = 0; k < dataset.runs[i].valve.size(); ++k)
-      if (static_cast<std::size_t>(dataset.runs[i].valve[k].state) == state &&
-          Shares(dataset.runs[i], k))
-        each(dataset.runs[i], k);
-}
-
-// What of a command's uncertainty is its own and what is shared, of all runs of the data set.
+// What of the uncertainty of commands to a state is their own and what they share.
 struct Parts {
   double own = 1.0, shared = 0.0;
 };
 
-Parts PartsOf(const Dataset& dataset, std::size_t state) {
-  std::vector<std::size_t> all(dataset.runs.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  std::size_t commands = 0;
-  bool own = false;
-  ForSharing(dataset, all, state, [&](const Run& run, std::size_t) {
-    ++commands;
-    own |= HasOwnInstants(run);
-  });
-  if (commands < 2) return {};
-  return own ? Parts{kHalf, kHalf} : Parts{0.0, 1.0};
+// By state, of all runs of the data set.
+std::array<Parts, model::kValveStates> PartsOf(const Dataset& dataset) {
+  std::array<std::size_t, model::kValveStates> commands{};
+  std::array<bool, model::kValveStates> own{};
+  for (const Run& run : dataset.runs) {
+    const bool has_own = HasOwnInstants(run);
+    for (std::size_t k = 0; k < run.valve.size(); ++k) {
+      if (!Shares(run, k)) continue;
+      const auto state = static_cast<std::size_t>(run.valve[k].state);
+      ++commands[state];
+      own[state] |= has_own;
+    }
+  }
+  std::array<Parts, model::kValveStates> parts{};
+  for (std::size_t state = 0; state < parts.size(); ++state)
+    if (commands[state] > 1) parts[state] = own[state] ? Parts{kOfTwo, kOfTwo} : Parts{0.0, 1.0};
+  return parts;
 }
 
 }  // namespace
 
 std::vector<Coordinate> InstantCoordinates(const Dataset& dataset,
                                            const std::vector<std::size_t>& runs) {
+  const auto parts = PartsOf(dataset);
   std::vector<Coordinate> coordinates;
   for (const std::size_t i : runs) {
     const Run& run = dataset.runs[i];
@@ -188,7 +183,7 @@ std::vector<Coordinate> InstantCoordinates(const Dataset& dataset,
       Coordinate coordinate;
       coordinate.parameter = {.kind = Parameter::Kind::kInstant, .number = k, .run = i};
       coordinate.prior = shares;
-      coordinate.scale = shares ? uncertainty_s * PartsOf(dataset, state).own : IntervalOf(run);
+      coordinate.scale = shares ? uncertainty_s * parts[state].own : IntervalOf(run);
       const Room room = RoomOf(run, k, coordinate.scale);
       coordinate.low = room.low;
       coordinate.high = room.high;
@@ -200,22 +195,29 @@ std::vector<Coordinate> InstantCoordinates(const Dataset& dataset,
 
 std::vector<Coordinate> SharedInstantCoordinates(const Dataset& dataset,
                                                  const std::vector<std::size_t>& runs) {
+  const auto parts = PartsOf(dataset);
+  std::array<Room, model::kValveStates> least;
+  least.fill({-kUnknown, kUnknown});
+  for (const std::size_t i : runs) {
+    const Run& run = dataset.runs[i];
+    for (std::size_t k = 0; k < run.valve.size(); ++k) {
+      const auto state = static_cast<std::size_t>(run.valve[k].state);
+      if (!Shares(run, k) || parts[state].shared == 0.0) continue;
+      const Room room = RoomOf(run, k, parts[state].shared * InstantUncertainty(run, k));
+      least[state] = {std::max(least[state].low, room.low), std::min(least[state].high, room.high)};
+    }
+  }
   std::vector<Coordinate> coordinates;
-  for (std::size_t state = 0; state < model::kValveStates; ++state) {
-    const double shared = PartsOf(dataset, state).shared;
-    if (!(shared > 0.0)) continue;
+  for (std::size_t state = 0; state < least.size(); ++state) {
     Coordinate coordinate;
     coordinate.parameter = {.kind = Parameter::Kind::kSharedInstant, .number = state};
     coordinate.prior = true;
-    coordinate.scale = shared;
-    Room least{-kUnknown, kUnknown};
-    ForSharing(dataset, runs, state, [&](const Run& run, std::size_t k) {
-      const Room room = RoomOf(run, k, shared * InstantUncertainty(run, k));
-      least = {std::max(least.low, room.low), std::min(least.high, room.high)};
-    });
-    coordinate.low = least.low;
-    coordinate.high = least.high;
-    if (std::isfinite(least.high) && least.high > least.low) coordinates.push_back(coordinate);
+    coordinate.scale = parts[state].shared;
+    coordinate.low = least[state].low;
+    coordinate.high = least[state].high;
+    if (coordinate.scale > 0.0 && std::isfinite(coordinate.high) &&
+        coordinate.high > coordinate.low)
+      coordinates.push_back(coordinate);
   }
   return coordinates;
 }

@@ -30,22 +30,16 @@ constexpr char kSupplyNote[] =
     "battery), mains (wall supply), tank (filled beforehand), direct_pump (no reservoir). May also "
     "hold source_pressure_kpa_gauge_max, mass_kg_max, volume_l_max, cost_eur_max.";
 constexpr char kEvacuatedNote[] =
-    "Actuators below ambient are evacuated: to rise is to evacuate, to fall to let air in. They "
-    "have "
-    "a supply of vacuum. May also hold mass_kg_max, volume_l_max, cost_eur_max.";
+    "Actuators below ambient are evacuated: to rise is to evacuate, to fall is to let air in. "
+    "Their supply is one of vacuum. May also hold mass_kg_max, volume_l_max, cost_eur_max.";
 constexpr char kVacuumNote[] =
     "Sources that may be chosen: pump (with reservoir and battery, or straight to the lines), "
     "ejector (needs mains beside vacuum in supply). May also hold vacuum_kpa_gauge_min, the "
-    "deepest "
-    "vacuum of a reservoir.";
+    "deepest vacuum of a reservoir.";
 constexpr char kMainsNote[] = "Pressure and flow of the wall supply.";
 constexpr double kDefaultExpansion = 2.0, kDefaultVacuumKpa = -50.0;
 constexpr char kObjectiveNote[] = "mass_kg, volume_l, cost_eur or energy_wh.";
 constexpr char kRankingNote[] = "Designs in the list, and seconds for the search.";
-
-Json NewMains() {
-  return {{"note", kMainsNote}, {"pressure_kpa_gauge", 600.0}, {"flow_l_per_min_anr_max", 200.0}};
-}
 
 Json NewGroup(const std::string& name) {
   return {{"note", kGroupNote},
@@ -138,6 +132,15 @@ bool IsEvacuated(const Json& group) {
 
 bool Evacuates(const Json& document) { return IsEvacuated(document.at("actuators").at(0)); }
 
+// A wall supply is described where a source that may be chosen needs it, and only there.
+void CompleteMains(Json& supply, const Json& sources, const char* needs) {
+  if (std::find(sources.begin(), sources.end(), needs) == sources.end())
+    supply.erase("mains");
+  else if (!supply.contains("mains"))
+    supply["mains"] = {
+        {"note", kMainsNote}, {"pressure_kpa_gauge", 600.0}, {"flow_l_per_min_anr_max", 200.0}};
+}
+
 // Of evacuated actuators the first says that the supply is one of vacuum; a volume that was to grow
 // is rigid until it is asked for.
 void CompleteVacuum(Json& document) {
@@ -148,24 +151,12 @@ void CompleteVacuum(Json& document) {
   if (!supply.contains("vacuum"))
     supply = {{"note", kEvacuatedNote},
               {"vacuum", {{"note", kVacuumNote}, {"configurations", {"pump"}}}}};
-  const Json& names = supply["vacuum"]["configurations"];
-  const bool ejector = std::find(names.begin(), names.end(), "ejector") != names.end();
-  if (!ejector)
-    supply.erase("mains");
-  else if (!supply.contains("mains"))
-    supply["mains"] = NewMains();
+  CompleteMains(supply, supply["vacuum"]["configurations"], "ejector");
 }
 
-// A wall supply is described where it may be chosen, and only there.
 void CompleteSupply(Json& document) {
   if (Evacuates(document)) return CompleteVacuum(document);
-  Json& supply = document["supply"];
-  const Json& names = supply["configurations"];
-  const bool mains = std::find(names.begin(), names.end(), "mains") != names.end();
-  if (!mains)
-    supply.erase("mains");
-  else if (!supply.contains("mains"))
-    supply["mains"] = NewMains();
+  CompleteMains(document["supply"], document["supply"]["configurations"], "mains");
 }
 
 // A name that no group has yet.

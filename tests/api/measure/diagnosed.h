@@ -13,8 +13,9 @@
 
 namespace plenum::api {
 
-inline Json DiagnosedOf(const Json& measurement) {
+inline Json DiagnosedOf(const Json& measurement, double time_limit_s = kDiagnosisTimeS) {
   DiagnosisRequest request;
+  request.time_limit_s = time_limit_s;
   request.dataset = Read(measurement);
   request.measurement = measurement;
   return Parse(RunDiagnosis(request, {}).answer.dump());

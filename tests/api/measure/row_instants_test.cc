@@ -8,55 +8,29 @@
 #include <random>
 
 #include "tests/api/measure/diagnosed.h"
-#include "tests/support/effects/effect_form.h"
+#include "tests/api/measure/recorded_bench.h"
 
 namespace plenum::api {
 namespace row_instants_test {
 
-constexpr double kRowS = 0.02;
+// Two searches, which a sanitizer slows down.
+constexpr double kTimeLimitS = 900.0;
 
 // Three runs of a chamber that leaks; the log has the vent `late_s` after it.
 Json Logged(double late_s) {
-  Json document = Parse(R"({
-    "schema": "measurement/1",
-    "rig": {
-      "actuator": { "rest_volume_ml": 50, "expansion_ratio": 2,
-                    "operating_pressure_kpa_gauge": 100 },
-      "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
-      "supply": { "kind": "regulated" },
-      "ambient": { "pressure_kpa_abs": 100, "temperature_k": 293.15 } },
-    "runs": [] })");
+  Json document = DeclaredBench();
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0.0, 0.25);
   for (const double source_kpa : {150.0, 180.0, 210.0}) {
     test::EffectRig rig;
     rig.source_pa = 1e5 + 1e3 * source_kpa;
-    rig.fill = rig.exhaust = {{0.05e-8, 0.3}};
     rig.leak = test::OrificeLeak{0.002e-8, 0.3};
     rig.schedule = {{0.0, 0}, {0.2, 1}, {1.2, 0}, {2.0 - late_s, -1}, {3.6, 0}};
-    std::vector<double> t_s;
-    for (int i = 0; i <= 200; ++i) t_s.push_back(kRowS * i);
-    Json run = {{"id", "r" + std::to_string(static_cast<int>(source_kpa))},
-                {"source_pressure_kpa_gauge", source_kpa},
-                {"initial", {{"pressure_kpa_gauge", 0}}},
-                {"t_s", t_s}};
-    run["valve"] = Parse(R"([{ "t_s": 0, "state": "hold" }, { "t_s": 0.2, "state": "inflate" },
-                  { "t_s": 1.2, "state": "hold" }, { "t_s": 2.0, "state": "deflate" },
-                  { "t_s": 3.6, "state": "hold" }])");
-    for (const double pa : test::SimulateEffects(rig, t_s, 5e-4).measured_pa)
-      run["pressure_kpa_gauge"].push_back((pa - 1e5) / 1e3 + noise(random));
-    document["runs"].push_back(std::move(run));
+    document["runs"].push_back(RecordedBench(
+        "r" + std::to_string(static_cast<int>(source_kpa)), rig, source_kpa,
+        {{0.0, 0}, {0.2, 1}, {1.2, 0}, {2.0, -1}, {3.6, 0}}, [&] { return noise(random); }));
   }
   return document;
-}
-
-// Two searches, which a sanitizer slows down.
-Json Diagnosed(const Json& measurement) {
-  DiagnosisRequest request;
-  request.dataset = Read(measurement);
-  request.measurement = measurement;
-  request.time_limit_s = 900.0;
-  return Parse(RunDiagnosis(request, {}).answer.dump());
 }
 
 std::vector<std::string> NamesOf(const Json& answer) {
@@ -67,7 +41,7 @@ std::vector<std::string> NamesOf(const Json& answer) {
 
 TEST(RowInstants, ALateRowIsNoEffect) {
   Json late = Logged(0.0195);
-  const Json answer = Diagnosed(late);
+  const Json answer = DiagnosedOf(late, kTimeLimitS);
   EXPECT_EQ(answer.at("verdict"), "explained") << answer.at("sentence");
   EXPECT_THAT(NamesOf(answer), testing::ElementsAre("leak")) << answer.at("sentence");
   EXPECT_THAT(answer.at("warnings").dump(), testing::HasSubstr("stand at times of readings"));
@@ -78,13 +52,13 @@ TEST(RowInstants, ALateRowIsNoEffect) {
   // Who says that they are exact is believed, and the leak alone leaves structure.
   for (Json& run : late["runs"])
     for (Json& command : run["valve"]) command["uncertainty_s"] = 0;
-  const Json exact = Diagnosed(late);
+  const Json exact = DiagnosedOf(late, kTimeLimitS);
   EXPECT_FALSE(exact.at("verdict") == "explained" &&
                NamesOf(exact) == std::vector<std::string>{"leak"});
 }
 
 TEST(RowInstants, ExactOnesAreLeftAlone) {
-  const Json answer = Diagnosed(Logged(0.0));
+  const Json answer = DiagnosedOf(Logged(0.0), kTimeLimitS);
   EXPECT_THAT(NamesOf(answer), testing::ElementsAre("leak")) << answer.at("sentence");
   EXPECT_FALSE(answer.at("measurement").at("runs")[0].at("valve")[3].contains("uncertainty_s"));
 }

@@ -9,8 +9,8 @@
 #include "api/measure/diagnose_request.h"
 #include "api/measure/diagnosis_document.h"
 #include "api/measure/revision_of_diagnosis.h"
+#include "tests/api/measure/recorded_bench.h"
 #include "tests/api/support.h"
-#include "tests/support/effects/effect_form.h"
 #include "tests/support/sample_diagnosis.h"
 
 namespace plenum::api {
@@ -81,35 +81,15 @@ TEST(WrongNumbersDocument, StaysOutOfTheSavedModel) {
 // Two runs of a chamber that is fed from 120 kPa where 150 are declared, by the independent
 // simulator; what the answer states gives back its curves.
 Json Measured() {
-  Json document = Parse(R"({
-    "schema": "measurement/1",
-    "rig": {
-      "actuator": { "rest_volume_ml": 50, "expansion_ratio": 2,
-                    "operating_pressure_kpa_gauge": 100 },
-      "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
-      "supply": { "kind": "regulated" },
-      "ambient": { "pressure_kpa_abs": 100, "temperature_k": 293.15 } },
-    "runs": [] })");
+  Json document = DeclaredBench();
   std::mt19937_64 random(5);
   std::normal_distribution<double> noise(0.0, 0.15);
   for (const double source_kpa : {150.0, 200.0}) {
     test::EffectRig rig;
     rig.source_pa = 1e5 + 0.8e3 * source_kpa;
-    rig.fill = rig.exhaust = {{0.05e-8, 0.3}};
     rig.schedule = {{0.0, 0}, {0.2, 1}, {1.2, 0}, {2.0, -1}, {3.5, 0}};
-    std::vector<double> t_s;
-    for (int i = 0; i <= 200; ++i) t_s.push_back(0.02 * i);
-    Json run = {{"id", source_kpa == 150.0 ? "low" : "high"},
-                {"source_pressure_kpa_gauge", source_kpa},
-                {"initial", {{"pressure_kpa_gauge", 0}}},
-                {"t_s", t_s}};
-    run["valve"] =
-        Json::parse(R"([{ "t_s": 0, "state": "hold" }, { "t_s": 0.2, "state": "inflate" },
-      { "t_s": 1.2, "state": "hold" }, { "t_s": 2.0, "state": "deflate" },
-      { "t_s": 3.5, "state": "hold" }])");
-    for (const double pa : test::SimulateEffects(rig, t_s, 5e-4).measured_pa)
-      run["pressure_kpa_gauge"].push_back((pa - 1e5) / 1e3 + noise(random));
-    document["runs"].push_back(std::move(run));
+    document["runs"].push_back(RecordedBench(source_kpa == 150.0 ? "low" : "high", rig, source_kpa,
+                                             rig.schedule, [&] { return noise(random); }));
   }
   return document;
 }

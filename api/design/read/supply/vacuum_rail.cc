@@ -92,7 +92,6 @@ bool Holds(const catalog::Part& valve) {
 void RefuseFlow(Reader& wall) {
   constexpr char kField[] = "flow_l_per_min_anr_max";
   if (!wall.Has(kField)) return;
-  wall.Raw(kField);
   wall.Fail(kField, "must be left out: the wall is taken to keep its vacuum whatever is drawn");
 }
 
