@@ -201,7 +201,8 @@ model::Manifold Manifold(const catalog::Part& row, const model::Ambient& ambient
           .stations = static_cast<int>(Required(row, "stations")),
           .sonic_conductance_m3_per_s_pa =
               ConductanceFromDm3PerSBar(Required(row, "sonic_conductance_dm3_per_s_bar")),
-          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient),
+          .orderable = row.orderable.value_or(true)};
 }
 
 model::CheckValve CheckValve(const catalog::Part& row, const model::Ambient& ambient) {

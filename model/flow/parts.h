@@ -137,6 +137,7 @@ struct Manifold {
   int stations = 2;
   double sonic_conductance_m3_per_s_pa = 0.0;  // of its supply port
   double pressure_max_pa = 0.0;
+  bool orderable = true;  // false: known to be no product
   bool operator==(const Manifold&) const = default;
 };
 

@@ -31,15 +31,21 @@ std::optional<Joint> Least(const Problem& problem, int joined, double pressure_p
                            double conductance_m3_per_s_pa) {
   if (joined < 2) return std::nullopt;
   const std::vector<model::Manifold>& rows = problem.parts.manifolds;
-  const auto stands = [&](const model::Manifold& row) {
-    return row.stations >= 2 && row.pressure_max_pa >= pressure_pa;
+  const auto some = [&](const auto& does) { return std::any_of(rows.begin(), rows.end(), does); };
+  const auto serves = [&](const model::Manifold& row) {
+    return row.stations >= 2 && row.pressure_max_pa >= pressure_pa &&
+           (!PricesNeeded(problem) || row.basics.cost_eur);
   };
-  const bool priced = PricesNeeded(problem) ||
-                      std::any_of(rows.begin(), rows.end(), [&](const model::Manifold& row) {
-                        return stands(row) && row.basics.cost_eur;
-                      });
+  const bool products = problem.orderable_only && some([&](const model::Manifold& row) {
+                          return serves(row) && row.orderable;
+                        });
+  const auto is_choice = [&](const model::Manifold& row) {
+    return serves(row) && (!products || row.orderable);
+  };
+  const bool priced =
+      some([&](const model::Manifold& row) { return is_choice(row) && row.basics.cost_eur; });
   const auto may = [&](const model::Manifold& row) {
-    return stands(row) && (!priced || row.basics.cost_eur);
+    return is_choice(row) && (!priced || row.basics.cost_eur);
   };
   double most = 0.0;
   for (const model::Manifold& row : rows)

@@ -21,7 +21,9 @@ bool Serves(const Problem& problem, const model::Manifold& row, double pressure_
 }
 
 // Whether a is taken rather than b, whatever they weigh: 1, 0 where that is open, or −1.
-int Prefers(const model::Manifold& a, const model::Manifold& b, double asked) {
+int Prefers(const Problem& problem, const model::Manifold& a, const model::Manifold& b,
+            double asked) {
+  if (problem.orderable_only && a.orderable != b.orderable) return a.orderable ? 1 : -1;
   if (a.basics.cost_eur.has_value() != b.basics.cost_eur.has_value())
     return a.basics.cost_eur ? 1 : -1;
   const double passes_a = std::min(a.sonic_conductance_m3_per_s_pa, asked);
@@ -49,7 +51,7 @@ JointRows Join(const Problem& problem, int joined, double pressure_pa, double as
   int best = -1;
   for (int i = 0; joined > 1 && i < static_cast<int>(rows.size()); ++i) {
     if (!Serves(problem, rows[i], pressure_pa)) continue;
-    const int prefers = best < 0 ? 1 : Prefers(rows[i], rows[best], asked);
+    const int prefers = best < 0 ? 1 : Prefers(problem, rows[i], rows[best], asked);
     if (prefers > 0 || (prefers == 0 && Before(problem, Pieces(joined, rows[i]), rows[i].basics,
                                                Pieces(joined, rows[best]), rows[best].basics)))
       best = i;

@@ -62,7 +62,8 @@ bool HasItsPressure(const optimizer::Problem& problem, const catalog::Part& part
 
 bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::Part& part) {
   return IsAllowed(problem, family, part.id) &&
-         (!problem.orderable_only || part.orderable.value_or(true)) &&
+         (!problem.orderable_only || part.orderable.value_or(true) ||
+          family == Family::kManifold) &&  // joints.h
          (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part) &&
          HasItsPressure(problem, part) && SuitsVacuumRail(problem, part);
 }

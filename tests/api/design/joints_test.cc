@@ -43,6 +43,23 @@ Json WithJoint(const Json& design, const std::string& id, int quantity) {
   return joined;
 }
 
+TEST(JointsTest, ProductsAloneAreNeverBetterThanAllParts) {
+  for (const char* name : {"crawler", "exosuit"})
+    for (const char* minimize : {"mass_kg", "cost_eur"}) {
+      Json request = Example(name);
+      request["objective"] = {{"minimize", minimize}};
+      request["ranking"] = {{"count", 1}, {"proof", true}};
+      const Json any = Answered(request);
+      request["supply"]["parts"] = "orderable";
+      const Json products = Answered(request);
+      ASSERT_FALSE(products["designs"].empty()) << name << minimize;
+      EXPECT_GE(products["designs"][0]["objective"].get<double>(),
+                any["designs"][0]["objective"].get<double>() - 1e-9)
+          << name << minimize;
+      EXPECT_EQ(Refusals(products), "") << name << minimize;
+    }
+}
+
 TEST(JointsTest, FourLinesMeetInThreeTeesWhichCount) {
   const Json answer = Answered(Gripper());
   const Json& best = answer["designs"][0];

@@ -79,6 +79,22 @@ TEST(Joints, AreTheLightestThatPassEnoughAndStandThePressure) {
   EXPECT_FALSE(JointOfLines(problem));
 }
 
+TEST(Joints, AClassOfProductsJoinsWhatNoProductDoesWhereProductsAloneAreAsked) {
+  Problem problem = SixOfFifty();
+  problem.parts.manifolds = {Row("class", 6, 0.01, 9.0, 3e6), Row("product", 6, 0.03, 9.0, 1e6)};
+  problem.parts.manifolds[0].orderable = false;
+  EXPECT_EQ(JointOfLines(problem)->part, 0);
+  problem.orderable_only = true;
+  EXPECT_EQ(JointOfLines(problem)->part, 1);
+  problem.groups.front().chamber.operating_pressure_pa = 2e6;
+  ASSERT_TRUE(JointOfLines(problem));  // it is there, and weighs
+  EXPECT_EQ(JointOfLines(problem)->part, 0);
+  problem.groups.front().chamber.operating_pressure_pa = 200e3;
+  problem.cost_max_eur = 100.0;
+  problem.parts.manifolds[1].basics.cost_eur.reset();
+  EXPECT_EQ(JointOfLines(problem)->part, 0);
+}
+
 TEST(Joints, AreTheCheapestWhereCostIsMinimised) {
   Problem problem = SixOfFifty();
   problem.parts.manifolds = {Row("light", 6, 0.02, 9.0), Row("tee", 2, 0.01, 9.0),
