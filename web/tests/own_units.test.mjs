@@ -90,7 +90,8 @@ test('sentences on a design name pressures as the page does', async () => {
   const { result } = await service.get(`/v1/designs/${id}`);
   const { source_pressure_kpa_gauge } = result.designs[0].settings;
   // As the service says of a design that is turned up too far.
-  const detail = 'the source pressure of 85.27 kPa is above the range that works, 60 to 80 kPa';
+  const detail =
+    'the source pressure of 85.27 kPa gauge is above the range that works, 60 to 80 kPa gauge';
   const before = (page) =>
     page.route('**/v1/evaluations', (route) => {
       const { settings } = route.request().postDataJSON().design;

@@ -65,3 +65,45 @@ test('what is wrong in a file names its line', async () => {
   await page.getByText('line 3, p [bar]: must be a number').waitFor();
   await close([422]);
 });
+
+test('runs of a CSV have a source pressure each, or one for all', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/measured');
+  const run = (name) => rows((ms, p) => `${name},${ms},${p},${ms > 0 && ms < 60 ? 1 : 0}`);
+  await openFile(
+    page,
+    table('two.csv', `run,t [ms],p [bar],valve\n${run('low')}\n${run('high')}\n`),
+  );
+  await page.getByRole('heading', { name: 'The rig it was measured on' }).waitFor();
+  const all = page.getByLabel('Source pressure', { exact: true });
+  const ofHigh = page.getByLabel('Source in high');
+  const put = async (field, value) => {
+    await field.fill(value);
+    await field.press('Tab');
+  };
+  await put(all, '150');
+  await page.getByText('Another source pressure in some runs').click();
+  assert.equal(await ofHigh.inputValue(), '150');
+  await put(ofHigh, '2 bar');
+  await page.waitForFunction(() => document.body.innerText.includes('Another source pressure'));
+  assert.equal(await page.getByLabel('Source in low').inputValue(), '150');
+  assert.equal(await all.inputValue(), '');
+  for (const [label, value] of [
+    ['Volume at rest', '50'],
+    ['Expansion', '1'],
+    ['Operating pressure', '100'],
+    ['Conductance C of the line', '0.05'],
+    ['Critical ratio b', '0.3'],
+  ])
+    await put(page.getByLabel(label), value);
+  const asked = page.waitForRequest(
+    (r) => r.method() === 'POST' && r.url().includes('/v1/diagnos'),
+  );
+  await page.getByRole('button', { name: 'Find what the model lacks' }).click();
+  const sent = (await asked).postDataJSON();
+  const runs = (sent.measurement ?? sent).runs;
+  assert.deepEqual(
+    runs.map((r) => r.source_pressure_kpa_gauge),
+    [150, '2 bar'],
+  );
+  await close();
+});

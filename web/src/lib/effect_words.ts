@@ -1,4 +1,6 @@
 // Effects in words for a person.
+import { pressuresInUnit } from './format';
+
 const effectWords: Record<string, string> = {
   leak: 'a leak',
   inertia: 'inertia of the wall',
@@ -48,7 +50,7 @@ export const effectNames = (ids: string[], laws: Record<string, string> = {}): s
 // A sentence of the service with names for a person in place of ids; what is left of ids are names
 // of numbers, as in "leak.critical_ratio".
 export const inWords = (sentence: string): string => {
-  const text = sentence
+  const text = pressuresInUnit(sentence)
     .replace(/\b([a-z_]+)\.([a-z_]+)\b/g, (whole, id, parameter) =>
       effectWords[id] ? `${parameter} of ${id}` : whole,
     )

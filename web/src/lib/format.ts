@@ -145,14 +145,16 @@ export const inUnit = (kind: Kind, error: string): string =>
         (_, sign, number) => `${sign} ${short(toShown(kind, Number(number)))}`,
       );
 
-// Gauge pressures that the service names in a sentence ("85.27 kPa", "120 to 300 kPa"), as shown.
+// Pressures that the service names in a sentence ("85.27 kPa gauge", "120 to 300 kPa"), as shown. Those
+// without a reference may be differences, whose unit alone changes.
 export const pressuresInUnit = (sentence: string): string =>
   sentence.replace(
-    /([-−]?\d+(?:\.\d+)?(?: to [-−]?\d+(?:\.\d+)?)?) kPa(?: gauge)?\b(?!\/| abs)/g,
-    (_, values: string) => {
-      const shownOf = (text: string) =>
-        short(toShown('pressure', Number(text.replace('−', '-'))), 4);
-      return `${values.split(' to ').map(shownOf).join(' to ')} ${unitOf('pressure')}`;
+    /([-−]?\d+(?:\.\d+)?(?: to [-−]?\d+(?:\.\d+)?)?) kPa( gauge)?\b(?!\/| abs)/g,
+    (whole, values: string, gauge?: string) => {
+      const kind = gauge ? 'pressure' : 'difference';
+      if (unitOf(kind) === (gauge ? 'kPa gauge' : 'kPa')) return whole;
+      const shownOf = (text: string) => short(toShown(kind, Number(text.replace('−', '-'))), 4);
+      return `${values.split(' to ').map(shownOf).join(' to ')} ${unitOf(kind)}`;
     },
   );
 

@@ -5,7 +5,7 @@ import { useEffect } from 'preact/hooks';
 import { asProblem, type Problem } from '../lib/api';
 import { loadFamily } from '../lib/catalogue';
 import { compareWith, type Evaluation, exchanged, placeOf } from '../lib/evaluation';
-import { fieldName } from '../lib/format';
+import { fieldName, pressuresInUnit } from '../lib/format';
 import type { Answer, Design, PartRow } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
 
@@ -110,7 +110,7 @@ function Verdict(props: { found: Evaluation; isChanged: boolean }) {
       <ul class="words">
         {(why_not_first?.words ?? ['Why it is not first is not known: time ran out.']).map(
           (sentence) => (
-            <li key={sentence}>{sentence}</li>
+            <li key={sentence}>{pressuresInUnit(sentence)}</li>
           ),
         )}
       </ul>

@@ -1,7 +1,7 @@
 // What an answer says of its requirements: numbers that look like another unit, texts and shapes as
 // they were understood, notes.
 import { placeInWords } from '../lib/amounts';
-import { short } from '../lib/format';
+import { pressuresInUnit, short } from '../lib/format';
 import type { Answer } from '../lib/types';
 import type { Understood } from '../lib/understood';
 import { noteText } from '../lib/words';
@@ -15,7 +15,7 @@ export function Remarks({ of }: { of: Answer }) {
     <Panel title="As the requirements were understood">
       {warnings.map((warning) => (
         <Notice key={warning.pointer} kind="warn">
-          {place(warning.pointer)} {warning.detail}
+          {place(warning.pointer)} {pressuresInUnit(warning.detail)}
         </Notice>
       ))}
       <ul>

@@ -24,10 +24,14 @@ export function RigForm() {
   const errorAt = (pointer: string) =>
     measurementErrors.value.find((e) => e.pointer === pointer)?.detail;
   const source = data.runs[0]?.source_pressure_kpa_gauge;
-  const putSource = (v: number | string | null) =>
+  const sourcesDiffer = data.runs.some((run) => run.source_pressure_kpa_gauge !== source);
+  // Of one run, or of all.
+  const putSource = (alone?: number) => (v: number | string | null) =>
     (measurement.value = {
       ...data,
-      runs: data.runs.map((run) => ({ ...run, source_pressure_kpa_gauge: v ?? undefined })),
+      runs: data.runs.map((run, i) =>
+        i === (alone ?? i) ? { ...run, source_pressure_kpa_gauge: v ?? undefined } : run,
+      ),
     });
   const sigma = data.relative_uncertainty ?? {};
   const putSigma = (name: string) => (v: number | string | null) => {
@@ -87,16 +91,38 @@ export function RigForm() {
           <NumberField
             label="Source pressure"
             kind="pressure"
-            value={source}
-            hint="of the regulator"
+            value={sourcesDiffer ? undefined : source}
+            optional={sourcesDiffer}
+            placeholder="by run, below"
+            hint={data.runs.length > 1 ? 'of the regulator, in all runs' : 'of the regulator'}
             error={errorAt('/runs/0/source_pressure_kpa_gauge')}
             pointer="/runs/0/source_pressure_kpa_gauge"
             takesUnits
-            onChange={putSource}
-            onText={putSource}
+            onChange={putSource()}
+            onText={putSource()}
           />
         )}
       </div>
+      {supply.kind === 'regulated' && data.runs.length > 1 && (
+        <details open={sourcesDiffer}>
+          <summary>Another source pressure in some runs</summary>
+          <div class="fields">
+            {data.runs.slice(0, 20).map((run, i) => (
+              <NumberField
+                key={run.id}
+                label={`Source in ${run.id}`}
+                kind="pressure"
+                value={run.source_pressure_kpa_gauge}
+                error={errorAt(`/runs/${i}/source_pressure_kpa_gauge`)}
+                pointer={`/runs/${i}/source_pressure_kpa_gauge`}
+                takesUnits
+                onChange={putSource(i)}
+                onText={putSource(i)}
+              />
+            ))}
+          </div>
+        </details>
+      )}
       <div class="toolbar">
         <Select
           label="Supply"
