@@ -260,8 +260,7 @@ class Diagnosing {
     if (diagnosis_.verdict != Verdict::kUndecided && !open)
       diagnosis_.numbers = WrongNumbersOf(bench_.dataset, *shown, search_.contenders, memory_);
     if (open) {
-      diagnosis_.effects.clear();
-      for (const Contender* contender : tied_) diagnosis_.tied.push_back(IdsOf(*contender));
+      StateTied(bench_, search_, memory_, tied_, diagnosis_);
       Propose();
     }
     Progress(0.99, "report");

@@ -66,7 +66,7 @@ DiagnosisAnswer DiagnoseRuns(DiagnosisRequest request, const DiagnosisProgress& 
   AddRemarks(request.remarks, answer.answer);
   answer.answer["measurement"] = InputsOf(request.measurement);
   // A saved model is one of a single actuator.
-  if (!request.model && diagnosis.tied.empty() && !request.dataset.several &&
+  if (!request.model && !request.dataset.several &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);
   answer.answer["revision"] = answer.revision ? RenderModel(*answer.revision) : Json(nullptr);

@@ -31,7 +31,7 @@ struct DiagnosisProgress {
 
 struct DiagnosisAnswer {
   Json answer;                         // diagnosis/1
-  std::optional<SavedModel> revision;  // to be saved; none of a tie or of what is undecided
+  std::optional<SavedModel> revision;  // to be saved; none of what is undecided
 };
 // Of runs with several bottles that measure a part (fitted/bottles.h) the answer is that of the
 // bottle with the most runs, with "bottles" for what the others say.

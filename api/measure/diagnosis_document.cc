@@ -270,10 +270,10 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
                    {"before", RenderError(diagnosis.before)},
                    {"after", RenderError(diagnosis.after)},
                    {"learned", diagnosis.learned ? RenderError(*diagnosis.learned) : Json()}});
-  document["effects"] =
-      List(diagnosis.effects, [&](const auto& effect) { return RenderEffect(effect, dataset); });
-  document["numbers"] =
-      List(diagnosis.numbers, [&](const auto& wrong) { return RenderWrong(wrong, dataset); });
+  const auto effect_of = [&](const auto& effect) { return RenderEffect(effect, dataset); };
+  const auto wrong_of = [&](const auto& wrong) { return RenderWrong(wrong, dataset); };
+  document["effects"] = List(diagnosis.effects, effect_of);
+  document["numbers"] = List(diagnosis.numbers, wrong_of);
   document["stability"] = List(diagnosis.stability, RenderStability);
   document["slips"] = List(diagnosis.slips, [](const auto& slip) {
     return Json{{"what", slip.what}, {"assume", slip.assume}};
@@ -281,6 +281,10 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
   document["candidates"] = List(diagnosis.candidates, RenderCandidate);
   document["tied"] = List(diagnosis.tied, Ids);
   document["tied_laws"] = List(diagnosis.tied, Laws);
+  document["tied_sets"] = List(diagnosis.tied_sets, [&](const calibration::TiedSet& set) {
+    return Json{{"effects", List(set.effects, effect_of)},
+                {"numbers", List(set.numbers, wrong_of)}};
+  });
   document["next_experiment"] = diagnosis.next_experiment
                                     ? RenderExperiment(*diagnosis.next_experiment, dataset)
                                     : Json(nullptr);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kDataMax = 10'000;
 constexpr std::size_t kParametersMax = 1'000;
+constexpr std::size_t kSetsMax = 1'000;
 
 Json Rows(const std::vector<std::vector<double>>& rows) {
   Json list = Json::array();
@@ -70,6 +71,25 @@ void ReadData(Reader& reader, SavedModel& model) {
   }
 }
 
+void ReadTied(Reader& reader, SavedModel& model) {
+  reader.Describe("tied",
+                  {{"type", "array"},
+                   {"items", {{"type", "array"}, {"items", {{"type", "string"}}}}}});
+  if (!reader.Has("tied")) return;
+  for (const Element& set : reader.List("tied", 0, kSetsMax)) {
+    std::vector<std::string>& ids = model.tied.emplace_back();
+    if (!set.value->is_array()) {
+      reader.FailAt("tied", "must hold lists of effects");
+      continue;
+    }
+    for (const Json& id : *set.value)
+      if (id.is_string())
+        ids.push_back(id.get<std::string>());
+      else
+        reader.FailAt("tied", "must hold lists of texts");
+  }
+}
+
 }  // namespace
 
 Json RenderModel(const SavedModel& model) {
@@ -79,17 +99,20 @@ Json RenderModel(const SavedModel& model) {
   Json data = Json::array();
   for (const SavedModel::Data& file : model.data)
     data.push_back({{"name", file.name}, {"sha256", file.sha256}});
-  return {{"schema", "model/1"},
-          {"effects", RenderEffects(model.effects)},
-          {"factors", std::move(factors)},
-          {"covariance",
-           {{"parameters", model.covariance.parameters}, {"matrix", Rows(model.covariance.rows)}}},
-          {"data", std::move(data)},
-          {"noise_kpa", Number(model.noise_pa / kPaPerKpa)},
-          {"before_rms_kpa", Number(model.before_rms_pa / kPaPerKpa)},
-          {"after_rms_kpa", Number(model.after_rms_pa / kPaPerKpa)},
-          {"holdout_rms_kpa",
-           model.holdout_rms_pa ? Number(*model.holdout_rms_pa / kPaPerKpa) : Json()}};
+  Json document = {
+      {"schema", "model/1"},
+      {"effects", RenderEffects(model.effects)},
+      {"factors", std::move(factors)},
+      {"covariance",
+       {{"parameters", model.covariance.parameters}, {"matrix", Rows(model.covariance.rows)}}},
+      {"data", std::move(data)},
+      {"noise_kpa", Number(model.noise_pa / kPaPerKpa)},
+      {"before_rms_kpa", Number(model.before_rms_pa / kPaPerKpa)},
+      {"after_rms_kpa", Number(model.after_rms_pa / kPaPerKpa)},
+      {"holdout_rms_kpa",
+       model.holdout_rms_pa ? Number(*model.holdout_rms_pa / kPaPerKpa) : Json()}};
+  if (!model.tied.empty()) document["tied"] = model.tied;
+  return document;
 }
 
 Parsed<SavedModel> ParseModel(const Json& document) {
@@ -101,6 +124,7 @@ Parsed<SavedModel> ParseModel(const Json& document) {
   ReadFactors(reader, model);
   ReadCovariance(reader, model.covariance);
   ReadData(reader, model);
+  ReadTied(reader, model);
   const auto error = [&](const char* name) { return reader.OptionalNumber(name, {0, 1e9}); };
   model.noise_pa = error("noise_kpa").value_or(0.0) * kPaPerKpa;
   model.before_rms_pa = error("before_rms_kpa").value_or(0.0) * kPaPerKpa;

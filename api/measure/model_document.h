@@ -4,9 +4,11 @@
 //     "factors": { "sonic_conductance": 1.03 },
 //     "covariance": { "parameters": [ "creep.fraction", … ], "matrix": [ [ … ] ] },
 //     "data": [ { "name", "sha256" } ],
+//     "tied": [ [ "creep" ], [ "leak" ] ],
 //     "noise_kpa", "before_rms_kpa", "after_rms_kpa", "holdout_rms_kpa" }
 // Factors are those of the fit on numbers declared for the rig that was measured: they serve
-// diagnoses of that rig, not the parts of other designs.
+// diagnoses of that rig, not the parts of other designs. `tied` stands in models of a tie alone: the
+// sets that did as well, of which the model has the first.
 #ifndef PLENUM_API_MEASURE_MODEL_DOCUMENT_H_
 #define PLENUM_API_MEASURE_MODEL_DOCUMENT_H_
 
@@ -25,6 +27,7 @@ namespace plenum::api {
 struct SavedModel {
   std::vector<model::Effect> effects;
   std::vector<std::pair<calibration::Declared, double>> factors;
+  std::vector<std::vector<std::string>> tied;  // sets of which the effects are the first
   struct Covariance {                       // of the fit, in the units that the names carry
     std::vector<std::string> parameters;    // "creep.fraction", "sonic_conductance"
     std::vector<std::vector<double>> rows;  // square

@@ -27,8 +27,11 @@ UnitOfParameter UnitOfFitted(const model::Effect& effect, std::size_t parameter)
 }
 
 bool IsWrong(const calibration::Diagnosis& diagnosis, calibration::Declared number) {
-  return std::any_of(diagnosis.numbers.begin(), diagnosis.numbers.end(),
-                     [&](const auto& wrong) { return wrong.number == number; });
+  const auto is_it = [&](const auto& wrong) { return wrong.number == number; };
+  const auto& tied = diagnosis.tied_sets;
+  return std::any_of(diagnosis.numbers.begin(), diagnosis.numbers.end(), is_it) ||
+         (!tied.empty() &&
+          std::any_of(tied.front().numbers.begin(), tied.front().numbers.end(), is_it));
 }
 
 // A number of a saved model: the mean of some rows of the estimates' covariance. They are one but
@@ -76,7 +79,9 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
   const calibration::Estimates& estimates =
       diagnosis.learned ? diagnosis.discrepancy->beside : diagnosis;
   const calibration::ErrorReport& after = diagnosis.learned ? *diagnosis.learned : diagnosis.after;
-  for (const calibration::FittedEffect& fitted : estimates.effects) {
+  const bool first_of_tie = !diagnosis.learned && !diagnosis.tied_sets.empty();
+  for (const calibration::FittedEffect& fitted :
+       first_of_tie ? diagnosis.tied_sets.front().effects : estimates.effects) {
     model.effects.push_back(fitted.effect);
     for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
       if (model::OfEachRun(fitted.effect.spec->parameters[i])) continue;
@@ -94,6 +99,7 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
   }
   for (const Provenance::File& file : provenance.files)
     model.data.push_back({file.name, file.sha256});
+  model.tied = diagnosis.tied;
   model.noise_pa = diagnosis.noise_pa;
   model.before_rms_pa = diagnosis.before.rms_pa;
   model.after_rms_pa = after.rms_pa;

@@ -174,7 +174,14 @@ struct Names {
   std::vector<SuspectedSlip> slips;        // not settled: no effect is named before they are
 };
 
-// `effects`, `fitted` and `covariance` are those of `after`.
+// One of the sets of a tie.
+struct TiedSet {
+  std::vector<FittedEffect> effects;  // none where time ran out
+  std::vector<WrongNumber> numbers;
+};
+
+// `effects`, `fitted` and `covariance` are those of `after`; of a tie the effects are those of the
+// first of `tied_sets`.
 struct Diagnosis : Estimates, Names {
   Verdict verdict = Verdict::kUndecided;
   std::string sentence;  // the verdict for a person
@@ -184,6 +191,7 @@ struct Diagnosis : Estimates, Names {
   StatedModels models;  // whose errors those are; without runs where nothing could be fitted
   std::vector<Candidate> candidates;  // by BIC
   std::vector<std::vector<std::string>> tied;
+  std::vector<TiedSet> tied_sets;  // as each of these was fitted, the first as in `after`
   std::optional<Experiment> next_experiment;  // none where no run would tell tied sets apart
   std::string no_experiment;                  // why there is none for a tie
   ResidualReport residual;

@@ -35,9 +35,9 @@ std::string WhyNot(const optimizer::Problem& problem, const optimizer::Window& s
   const double set = gauge(given.settings.source_pressure_pa);
   const bool is_setting = !optimizer::IsDirect(given.configuration);
   if (is_setting && given.settings.group_pressure_pa.empty() && (set < least || set > most))
-    return "the source pressure of " + Significant(set, 4) + " kPa is " +
+    return "the source pressure of " + Significant(set, 4) + " kPa gauge is " +
            (set < least ? "below" : "above") + " the range that works, " + Significant(least, 4) +
-           " to " + Significant(most, 4) + " kPa";
+           " to " + Significant(most, 4) + " kPa gauge";
   if (!given.settings.group_pressure_pa.empty())
     return "a group's pressure is one that its parts do not stand, or a stroke never ends";
   return "a stroke never ends within half of the period";

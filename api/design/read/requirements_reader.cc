@@ -219,6 +219,19 @@ void ReadChoices(Reader& request, const std::vector<catalog::Part>& parts,
   CheckPower(request, problem);
 }
 
+void WarnOfTie(const Reader& request, const std::string& name, const SavedModel& model) {
+  RemarkRecorder* recorder = RemarkRecorder::Current();
+  if (!recorder || model.tied.empty()) return;
+  std::string others;
+  for (std::size_t i = 1; i < model.tied.size(); ++i) {
+    std::string set;
+    for (const std::string& id : model.tied[i]) set += (set.empty() ? "" : " and ") + id;
+    others += (others.empty() ? "" : ", or ") + set;
+  }
+  recorder->Warn(request.Pointer("model"), name + " is the first of a tie: " + others +
+                                               " would explain its data as well");
+}
+
 // Effects of the revision go to every group; those of its sensor change no actuator.
 void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& models,
                DesignRequest& parsed) {
@@ -229,6 +242,7 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
     request.errors().insert(request.errors().end(), errors->begin(), errors->end());
     return;
   }
+  WarnOfTie(request, name, std::get<SavedModel>(found));
   for (const model::Effect& effect : std::get<SavedModel>(found).effects) {
     if (effect.spec->place == model::EffectPlace::kSensor) continue;
     for (optimizer::ActuatorGroup& group : parsed.problem.groups) group.effects.push_back(effect);

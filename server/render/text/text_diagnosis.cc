@@ -185,11 +185,28 @@ std::string HeldOutText(const Json& answer) {
   return text.empty() ? text : text + "\n";
 }
 
+// The sets of a tie, each with what it says.
+std::string TiedText(const Json& answer) {
+  const Json& tied = answer.at("tied");
+  const Json sets = answer.value("tied_sets", Json::array());
+  if (tied.empty()) return "";
+  std::string text = "As good as each other:\n";
+  for (std::size_t i = 0; i < tied.size(); ++i) {
+    text += "  " + EffectsText(tied[i], answer.at("tied_laws")[i]);
+    std::string words;
+    for (const char* causes : {"effects", "numbers"})
+      for (const Json& cause : i < sets.size() ? sets[i].at(causes) : Json::array())
+        words += (words.empty() ? ": " : "; ") + cause.at("words").get<std::string>();
+    text += words + "\n";
+  }
+  return text + "\n";
+}
+
 std::string TieText(const Json& answer) {
-  std::string text;
+  std::string text = TiedText(answer);
   const Json& next = answer.at("next_experiment");
   if (const Json reason = answer.value("reason", Json()); next.is_null() && reason.is_string())
-    return fmt::format("No next run: {}.\n\n", reason.get<std::string>());
+    return text + fmt::format("No next run: {}.\n\n", reason.get<std::string>());
   if (next.is_null()) return text;
   text += fmt::format("Next run: {}\n", next.at("why").get<std::string>());
   std::string valve;

@@ -97,6 +97,13 @@ TEST(Evacuated, OfAnotherVolumeIsFoundSo) {
   EXPECT_NE(std::find(tied.begin(), tied.end(), Json::array({"number:sonic_conductance"})),
             tied.end());
   EXPECT_LT(answer.at("after").at("holdout_rms_kpa").get<double>(), 0.095);
+  for (std::size_t i = 0; i < 2; ++i) {  // 96 mL for 80, or C of 80 for 96
+    const Json& number = answer.at("tied_sets")[i].at("numbers").at(0);
+    EXPECT_EQ("number:" + number.at("name").get<std::string>(), tied[i][0]);
+    const double factor = tied[i][0] == "number:rest_volume" ? 1.2 : 1.0 / 1.2;
+    EXPECT_NEAR(number.at("fitted").get<double>() / number.at("declared").get<double>(), factor,
+                0.02);
+  }
 }
 
 TEST(Evacuated, WhatDoesNotFitIsSaid) {

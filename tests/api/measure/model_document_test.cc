@@ -50,6 +50,19 @@ TEST(ModelRevision, ReadsWhatItWrites) {
   EXPECT_EQ(RenderModel(model)["covariance"], Parse(kDocument)["covariance"]);
 }
 
+TEST(ModelRevision, OfATieSaysSoAndWarnsWhatIsRankedWithIt) {
+  const Json tied = Json::parse(R"([["valve_delay", "sensor_offset"], ["leak"], ["creep"]])");
+  const Json document = With(Parse(kDocument), "/tied", tied);
+  EXPECT_EQ(RenderModel(std::get<SavedModel>(ParseModel(document)))["tied"], tied);
+  EXPECT_FALSE(RenderModel(std::get<SavedModel>(ParseModel(Parse(kDocument)))).contains("tied"));
+  const Json request = With(Requirements(), "/model", "bench");
+  const auto parsed = std::get<DesignRequest>(
+      ParseRequirements(request, SmallCatalogue(), {Saved(document.dump())}));
+  ASSERT_THAT(parsed.remarks.warnings, SizeIs(1));
+  EXPECT_EQ(parsed.remarks.warnings[0]["pointer"], "/model");
+  EXPECT_THAT(parsed.remarks.warnings[0]["detail"], HasSubstr("leak, or creep would explain"));
+}
+
 TEST(ModelRevision, RefusesWhatMakesNoSense) {
   const auto detail = [](const char* pointer, Json value, const char* at) {
     return DetailAt(ErrorsOf(ParseModel(With(Parse(kDocument), pointer, value))), at);
@@ -61,6 +74,8 @@ TEST(ModelRevision, RefusesWhatMakesNoSense) {
               HasSubstr("> 0"));
   EXPECT_THAT(detail("/effects/0/id", "leek", "/effects/0/id"), HasSubstr("leak"));
   EXPECT_THAT(detail("/more", 1, "/more"), HasSubstr("unknown"));
+  EXPECT_THAT(detail("/tied", Json::array({"leak"}), "/tied"), HasSubstr("lists of effects"));
+  EXPECT_THAT(detail("/tied", Json::array({Json::array({1})}), "/tied"), HasSubstr("texts"));
 }
 
 TEST(ModelRevision, ARankingNamesOne) {

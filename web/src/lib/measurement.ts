@@ -208,6 +208,7 @@ export interface Diagnosis {
   }[];
   tied: string[][];
   tied_laws: Record<string, string>[];
+  tied_sets?: { effects: FittedEffect[]; numbers: WrongNumber[] }[]; // as each was fitted
   next_experiment: Experiment | null;
   reason?: string | null; // why a tie has none
   residual: {
@@ -246,6 +247,7 @@ export interface SavedModel {
   factors: Record<string, number>;
   covariance: { parameters: string[]; matrix: number[][] };
   data: { name: string; sha256: string }[];
+  tied?: string[][]; // of a tie the sets that did as well
 }
 
 // Of a CSV, before its numbers are written: those of another rig would pass for its own.

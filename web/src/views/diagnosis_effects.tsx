@@ -1,9 +1,10 @@
 // The effects that a diagnosis established, and the declared numbers as they were fitted.
-import { beside, fieldKind, fieldName, significant } from '../lib/format';
+import { beside, fieldKind, fieldName, pressuresInUnit, significant } from '../lib/format';
 import { effectName, effectNames } from '../lib/effect_words';
 import {
   type Diagnosis,
   type Estimate,
+  type FittedEffect,
   type FittedNumber,
   type Specimen,
   type WrongNumber,
@@ -126,7 +127,21 @@ function Specimens({ d, specimens }: { d: Diagnosis; specimens: Specimen[] }) {
   );
 }
 
-const sentence = (words: string): string => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
+const sentence = (words: string): string =>
+  `${words.charAt(0).toUpperCase()}${pressuresInUnit(words.slice(1))}.`;
+
+function OneEffect({ effect }: { effect: FittedEffect }) {
+  return (
+    <>
+      <h3>
+        {effectName(effect.id)} <code>{effect.id}</code>
+        {effect.chamber && ` of ${effect.chamber}`}
+      </h3>
+      {effect.words && <p>{sentence(effect.words)}</p>}
+      <EstimateTable name={effect.id} of="parameter" rows={Object.entries(effect.parameters)} />
+    </>
+  );
+}
 
 export function Effects({ d }: { d: Diagnosis }) {
   const fitted = named(d.fitted).filter(([, value]) => value.specimen === undefined);
@@ -145,14 +160,16 @@ export function Effects({ d }: { d: Diagnosis }) {
         </p>
       )}
       {d.effects.map((effect) => (
-        <div key={effect.id + (effect.chamber ?? '')}>
-          <h3>
-            {effectName(effect.id)} <code>{effect.id}</code>
-            {effect.chamber && ` of ${effect.chamber}`}
-          </h3>
-          {effect.words && <p>{sentence(effect.words)}</p>}
-          <EstimateTable name={effect.id} of="parameter" rows={Object.entries(effect.parameters)} />
-        </div>
+        <OneEffect key={effect.id + (effect.chamber ?? '')} effect={effect} />
+      ))}
+      {d.tied_sets?.map(({ effects, numbers }, i) => (
+        <details key={i} open={i === 0}>
+          <summary>As good as any: {effectNames(d.tied[i]!, d.tied_laws[i])}</summary>
+          {numbers.map((n) => n.words && <p key={n.words}>{sentence(n.words)}</p>)}
+          {effects.map((effect) => (
+            <OneEffect key={effect.id + (effect.chamber ?? '')} effect={effect} />
+          ))}
+        </details>
       ))}
       {fitted.length > 0 && (
         <>

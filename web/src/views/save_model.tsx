@@ -66,6 +66,7 @@ export function SaveModel({
           `, ${factors.length} re-fitted ${factors.length === 1 ? 'number' : 'numbers'}`}
         , their variances, the errors and the hash of the data. Ranking uses the effects, but those
         of the sensor.
+        {model.tied && ' Other sets do as well: the run proposed above would decide.'}
         {d.discrepancy?.learned && ' The learned term holds only within the range of these data.'}
       </p>
       <div class="toolbar">

@@ -122,7 +122,8 @@ TEST_P(Evaluation, DoesNotWorkBeyondWhatThePartsStand) {
   EXPECT_FALSE(burst.at("works").get<bool>());
   EXPECT_LT(burst.at("source_pressure_range_kpa_gauge").at(1), 4e4);
   const std::string detail = burst.at("detail");
-  EXPECT_EQ(detail.find("the source pressure of 40000 kPa is above the range that works, "), 0u)
+  EXPECT_EQ(detail.find("the source pressure of 40000 kPa gauge is above the range that works, "),
+            0u)
       << detail;
   const Json slack = Answer(requirements_, With(given_, "/settings/source_pressure_kpa_gauge", 1));
   EXPECT_NE(slack.at("detail").get<std::string>().find(" is below the range that works, "),
