@@ -338,9 +338,9 @@ class Diagnosing {
 
   const Contender& Chosen() const { return search_.contenders[search_.chosen]; }
 
-  // A learned term does better than the several effects chosen, or as well with fewer numbers.
+  // A learned term does better than the effects chosen, or as well with fewer numbers.
   bool IsImitated() {
-    if (Chosen().effects.size() < 2u || Stopped()) return false;
+    if (Chosen().effects.empty() || Stopped()) return false;
     Progress(0.94, "what else would do as well");
     rival_ = RivalOf(bench_.data, base_->fit, Chosen().fit, bench_.tight);
     return rival_.instead;

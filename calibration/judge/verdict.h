@@ -50,7 +50,7 @@ struct Evidence {
   bool accepted = false;   // the chosen set has effects (which BIC accepted)
   int tied = 0;            // other sets of its size as good as it
   Leftover before, after;  // of the base model and the chosen set
-  bool imitated = false;   // one learned term alone does as well as its several effects
+  bool imitated = false;   // one learned term alone does as well as its effects
 };
 
 // In this order: kUndecided if not complete. Without an accepted effect kAdequate if the base model
@@ -59,9 +59,9 @@ struct Evidence {
 // where runs that the fit did not see are off by more than
 // √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what is missing:
 // where the noise is rough it leaves more than kEstablished of the base model's error, it needs
-// declared numbers beyond their uncertainties, one term of unknown cause does what it takes several
-// effects for, or it predicts worse than the base model. Then kTie if others are as good; else
-// kExplained.
+// declared numbers beyond their uncertainties, one term of unknown cause does better than its
+// effects or as well with fewer numbers, or it predicts worse than the base model. Then kTie if
+// others are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
 // Whether it says what is missing.

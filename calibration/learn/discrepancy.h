@@ -54,12 +54,13 @@ inline bool HoldsAll(const Discrepancy& discrepancy, const EffectSet& effects) {
 
 // What one learned term beside the base model does in the place of a set of effects.
 //
-// Several effects may be names for what is not in the list: they are not named where a term of
-// fewer numbers, or any in the place of three effects, comes within kAccept of their score
-// (thresholds.h), or where a term is better by as much. A term with as many numbers that does as
-// well as two effects is no reason against them: whatever goes on slowly in the chamber can be said
-// of a sensor that drifts. It is said beside them. A curve of the sensor holds all effects of the
-// sensor and must be better than they by kAccept, whatever its numbers.
+// Effects may be names for what is not in the list, one as well as several (a line that kinks
+// passes for a bent volume law): they are not named where a term of fewer numbers, or any in the
+// place of three effects, comes within kAccept of their score (thresholds.h), or where a term is
+// better by as much. A term with as many numbers that does as well as two effects is no reason
+// against them: whatever goes on slowly in the chamber can be said of a sensor that drifts. It is
+// said beside them. A curve of the sensor holds all effects of the sensor and must be better than
+// they by kAccept, whatever its numbers.
 struct Rival {
   bool instead = false;                        // of the set
   const model::EffectSpec* as_good = nullptr;  // a term within kAccept of it, the best of them

@@ -7,6 +7,7 @@
 
 #include "calibration/diagnose.h"
 #include "tests/support/bench/bench_dataset.h"
+#include "tests/support/bench/real_case.h"
 #include "tests/support/in_full.h"
 
 namespace plenum::test {
@@ -124,6 +125,15 @@ TEST(BenchDiagnosis, LengthsOfALineAreTriedWithoutTheEffectsBesideIt) {
 
 // A line imitates a cracking pressure beside an opened valve's conductance better than either of
 // them does alone.
+// A line that kinks, by a few readings: a bent volume law leaves noise, a conductance that falls as
+// the actuator expands fits much better.
+TEST(BenchDiagnosis, WhatALearnedTermDoesBetterIsNotNamed) {
+  const Diagnosis diagnosis = Diagnosed(RealOfSeries(7341, 141));
+  EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplained) << diagnosis.sentence;
+  EXPECT_TRUE(diagnosis.effects.empty());
+  EXPECT_TRUE(diagnosis.tied.empty());
+}
+
 TEST(BenchDiagnosis, PairsAreMadeOfMoreEffectsBeforeAThirdIsAdded) {
   PLENUM_ONLY_IN_FULL();
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(25, 238));
