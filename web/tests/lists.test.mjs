@@ -99,7 +99,8 @@ test('prices and draws that were cancelled leave the list, and can be asked for 
   const ask = page.getByRole('button', { name: 'What do requirements cost, how sure is it?' });
   await ask.click();
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByText('It was stopped before prices and draws were worked out').waitFor();
+  // How far it came until then is a matter of the machine; that it was stopped is said.
+  await page.getByText(/^It was stopped(:| before)/).waitFor();
   assert.equal(await rows(page).count(), listed);
   await ask.waitFor();
   await close();

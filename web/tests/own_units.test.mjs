@@ -18,9 +18,11 @@ test('shares are taken in percent', async () => {
     const text = new URLSearchParams(location.hash.split('?')[1]).get('r');
     return text && atob(text.replaceAll('-', '+').replaceAll('_', '/')).includes('n":0.9}');
   });
-  // A number of things is none.
-  await page.getByLabel('Actuations', { exact: true }).fill('90 %');
-  await page.getByText('a number is needed here').waitFor();
+  // A number of things is none: the service, which reads a time there, says so at the field.
+  const actuations = page.getByLabel('Actuations', { exact: true });
+  await actuations.fill('90 %');
+  await actuations.and(page.locator('[aria-invalid="true"]')).waitFor();
+  await page.getByText('or for how long, as "2 h", not "90 %"').first().waitFor();
 
   await page.goto(`${service.base}/#/measured`);
   const csv = ['run,t_s,valve,pressure_kpa_gauge'];

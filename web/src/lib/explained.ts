@@ -31,8 +31,9 @@ export interface Explanation {
 }
 
 // One that was cancelled may have neither.
-const hasPrices = (found: Answer): boolean => (found.prices ?? []).length > 0;
-const hasDraws = (found: Answer): boolean => found.designs.some((design) => design.robustness);
+const hasPrices = (found: Answer): boolean =>
+  (found.prices ?? []).some((row) => row.status !== 'cancelled');
+const hasDraws = (found: Answer): boolean => (found.robust?.draws ?? 0) > 0;
 export const foundNothing = (found: Answer | null | undefined): boolean =>
   !found || (!hasPrices(found) && !hasDraws(found));
 
@@ -42,7 +43,11 @@ function merged(answer: Answer, found: Answer): Answer {
     ...answer,
     designs: answer.designs.map((design) => {
       const { robustness, to_be_first } = of.get(signature(design)) ?? {};
-      return { ...design, ...(robustness && { robustness }), ...(to_be_first && { to_be_first }) };
+      return {
+        ...design,
+        ...(robustness && hasDraws(found) && { robustness }),
+        ...(to_be_first && { to_be_first }),
+      };
     }),
     ...(hasPrices(found) && { prices: found.prices }),
     ...(hasDraws(found) && { robust: found.robust }),

@@ -192,7 +192,8 @@ function Explain(props: { answer: Answer; id: string; explanation: Explanation |
   const problem = useSignal('');
   const busy = useSignal(false);
   const isSure = answer.robust !== undefined || answer.guarantee !== undefined;
-  if (isSure && (answer.prices || answer.front)) return null;
+  const wasStopped = explanation?.watched.job?.status === 'cancelled';
+  if (isSure && (answer.prices || answer.front) && !wasStopped) return null;
   if (explanation && isUnderWay(explanation)) return <CancelButton self={explanation.self} />;
   const run = async () => {
     busy.value = true;
@@ -244,6 +245,15 @@ function Explaining({ explanation }: { explanation: Explanation }) {
     return (
       <Notice kind={job?.status === 'failed' ? 'bad' : 'warn'}>
         {job?.detail ?? 'It was stopped before prices and draws were worked out.'}
+      </Notice>
+    );
+  if (job?.status === 'cancelled')
+    return (
+      <Notice kind="warn">
+        It was stopped: chances are of the {job.result?.robust?.draws ?? 0} draws until then
+        {job.result?.prices?.some((row) => row.status === 'cancelled') &&
+          ', and not all prices are worked out'}
+        .
       </Notice>
     );
   return fit === 'same' ? null : (
