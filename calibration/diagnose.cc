@@ -15,6 +15,7 @@
 #include "calibration/names/measured_numbers.h"
 #include "calibration/names/record_warnings.h"
 #include "calibration/names/stability.h"
+#include "calibration/names/tied_sets.h"
 #include "calibration/names/without_names.h"
 #include "calibration/names/wrong_numbers.h"
 #include "calibration/values/thresholds.h"

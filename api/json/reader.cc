@@ -37,12 +37,12 @@ std::variant<double, std::string> ReadQuantity(const std::string& text, const st
       {.ambient_kpa_abs = remarks == nullptr ? std::nullopt : remarks->ambient_kpa_abs(),
        .needs_unit = true});
   const std::string unit(catalog::UnitOf(name));
-  if (!quantity.value) return quantity.error + "; allowed are " + range.Text() + " " + unit;
+  const std::string allowed = range.Text() + (unit.empty() ? "" : " " + unit);
+  if (!quantity.value) return quantity.error + "; allowed are " + allowed;
   // Without the noise of the conversion, so that a bound in another unit is within its range.
   const double number = Rounded(*quantity.value);
   if (!range.Contains(number))
-    return "must be " + range.Text() + " " + unit + ", not " + Decimal(number) + " (" +
-           Quoted(text) + ")";
+    return "must be " + allowed + ", not " + Decimal(number) + " (" + Quoted(text) + ")";
   if (remarks == nullptr) return number;
   Json understood = {{"given", text}, {"value", number}, {"unit", unit}};
   if (!quantity.condition.empty()) understood["condition"] = quantity.condition;
@@ -128,7 +128,9 @@ const Json* Reader::Required(std::string_view name) {
 
 double Reader::ReadNumber(const Json& value, const std::string& pointer, Range range,
                           std::string_view name) {
-  if (value.is_string() && !catalog::UnitOf(name).empty()) {
+  const bool in_percent = value.is_string() && value.get_ref<const std::string&>().ends_with('%');
+  if (value.is_string() && TakesText(name, range) &&
+      (in_percent || !catalog::UnitOf(name).empty())) {
     const auto read = ReadQuantity(value.get_ref<const std::string&>(), pointer, range, name);
     if (const double* number = std::get_if<double>(&read)) return *number;
     Report(pointer, std::get<std::string>(read));

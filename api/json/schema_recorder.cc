@@ -51,8 +51,12 @@ Json QuantityForm(std::string_view name) {
           {"examples", Json::array({"1 " + units.substr(0, units.find(','))})}};
 }
 
+bool TakesText(std::string_view name, const Range& range) {
+  return !catalog::UnitOf(name).empty() || range.high <= 1.0;
+}
+
 Json NumberOrQuantityForm(std::string_view name, const Range& range) {
-  if (catalog::UnitOf(name).empty()) return NumberForm(range);
+  if (!TakesText(name, range)) return NumberForm(range);
   return {{"anyOf", {NumberForm(range), QuantityForm(name)}}};
 }
 

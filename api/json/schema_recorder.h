@@ -71,6 +71,8 @@ Json NumberForm(const Range& range);
 // A text of a number and a unit, for a field whose name ends in one.
 Json QuantityForm(std::string_view name);
 // What a number field may hold: the number, and where its name ends in a unit such a text, too.
+// Whether a number may be a text with its unit, or a share one in percent.
+bool TakesText(std::string_view name, const Range& range);
 Json NumberOrQuantityForm(std::string_view name, const Range& range);
 
 }  // namespace plenum::api

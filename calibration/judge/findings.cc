@@ -13,7 +13,6 @@
 #include "calibration/fit/profile.h"
 #include "calibration/judge/evidence.h"
 #include "calibration/judge/verdict.h"
-#include "calibration/names/wrong_numbers.h"
 #include "calibration/noise/phases.h"
 #include "calibration/values/parallel.h"
 #include "calibration/values/specimens.h"
@@ -158,20 +157,6 @@ Estimates EstimatesOf(const Bench& bench, const Fit& fit, IntervalsFrom source) 
                     covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
   return estimates;
-}
-
-void StateTied(const Bench& bench, const SearchResult& search, double memory,
-               const std::vector<const Contender*>& tied, Diagnosis& diagnosis) {
-  for (const Contender* contender : tied) {
-    const bool first = diagnosis.tied.empty();
-    TiedSet& set = diagnosis.tied_sets.emplace_back();
-    if (first)
-      set.effects = std::exchange(diagnosis.effects, {});
-    else if (!Stopped(bench))
-      set.effects = EstimatesOf(bench, contender->fit, IntervalsFrom::kCurvature).effects;
-    set.numbers = WrongNumbersOf(bench.dataset, *contender, search.contenders, memory);
-    diagnosis.tied.push_back(IdsOf(*contender));
-  }
 }
 
 void AddCandidates(const Bench& bench, const SearchResult& search, double memory,

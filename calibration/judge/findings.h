@@ -33,10 +33,6 @@ void AddReasons(const SearchResult& search, double memory,
                 const std::vector<const Contender*>& named, const std::string& doubt,
                 const model::EffectSpec* rival, Diagnosis& diagnosis);
 
-// The sets of a tie with their effects, whose first is that of `after`.
-void StateTied(const Bench& bench, const SearchResult& search, double memory,
-               const std::vector<const Contender*>& tied, Diagnosis& diagnosis);
-
 // Every run as measured and as the models of the diagnosis have it.
 void AddSeries(const Bench& bench, Diagnosis& diagnosis);
 

@@ -167,17 +167,18 @@ struct StatedModels {
   std::vector<StatedRun> runs;  // how their errors were got, by run
 };
 
-// What is named beside the effects, and whether all names hold.
-struct Names {
-  std::vector<WrongNumber> numbers;
-  std::vector<StabilityChange> stability;  // of what is, or would have been, named
-  std::vector<SuspectedSlip> slips;        // not settled: no effect is named before they are
-};
-
-// One of the sets of a tie.
+// One of the sets of a tie, as it was fitted.
 struct TiedSet {
   std::vector<FittedEffect> effects;  // none where time ran out
   std::vector<WrongNumber> numbers;
+};
+
+// What is named beside the effects, or might be, and whether all names hold.
+struct Names {
+  std::vector<TiedSet> tied_sets;  // of Diagnosis::tied, the first as in `after`
+  std::vector<WrongNumber> numbers;
+  std::vector<StabilityChange> stability;  // of what is, or would have been, named
+  std::vector<SuspectedSlip> slips;        // not settled: no effect is named before they are
 };
 
 // `effects`, `fitted` and `covariance` are those of `after`; of a tie the effects are those of the
@@ -191,7 +192,6 @@ struct Diagnosis : Estimates, Names {
   StatedModels models;  // whose errors those are; without runs where nothing could be fitted
   std::vector<Candidate> candidates;  // by BIC
   std::vector<std::vector<std::string>> tied;
-  std::vector<TiedSet> tied_sets;  // as each of these was fitted, the first as in `after`
   std::optional<Experiment> next_experiment;  // none where no run would tell tied sets apart
   std::string no_experiment;                  // why there is none for a tie
   ResidualReport residual;

@@ -122,6 +122,20 @@ std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t mos
   return std::min(least, least_before) < most ? row[b.size()] : most;
 }
 
+namespace {
+
+// Whether it stands in the other between underscores, or an end.
+bool IsWordOf(std::string_view word, std::string_view name) {
+  for (std::size_t at = name.find(word); at != std::string_view::npos;
+       at = name.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || name[at - 1] == '_') && (end == name.size() || name[end] == '_')) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known) {
   // What is far longer than any name is not a misspelling; keep the distance cheap.
   name = name.substr(0, 64);
@@ -132,7 +146,13 @@ std::string_view NearestName(std::string_view name, const std::vector<std::strin
       least = distance;
       nearest = candidate;
     }
-  return nearest;
+  constexpr std::size_t kLongEnough = 4, kMisspelt = 3;
+  if (name.size() < kLongEnough || kMisspelt * least <= name.size()) return nearest;
+  std::string_view shortest;
+  for (std::string_view candidate : known)
+    if (IsWordOf(name, candidate) && (shortest.empty() || candidate.size() < shortest.size()))
+      shortest = candidate;
+  return shortest.empty() ? nearest : shortest;
 }
 
 }  // namespace plenum::catalog

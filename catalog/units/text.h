@@ -37,7 +37,8 @@ std::size_t CountCharacters(std::string_view text);
 std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t most);
 
 // The name at the smallest edit distance (insert, delete, replace, swap of neighbours) from the
-// first 64 bytes, the first of equals; empty if there is none.
+// first 64 bytes, the first of equals; empty if there is none. Where that is more than a third of
+// it and the name is a word of others ("volume" of rest_volume_ml), the shortest of these.
 std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known);
 
 }  // namespace plenum::catalog

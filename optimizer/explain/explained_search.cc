@@ -10,6 +10,13 @@
 #include "optimizer/search/tree_search.h"
 
 namespace plenum::optimizer {
+namespace {
+
+// Of the time limit, that a list of kinds leaves for the best of each configuration and of
+// products.
+constexpr double kBestsShare = 0.1;
+
+}  // namespace
 
 Answer Search(const Problem& problem, const SearchOptions& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -17,11 +24,13 @@ Answer Search(const Problem& problem, const SearchOptions& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   Problem searched = problem;
-  Answer answer = SearchTrees(searched, options);
+  SearchOptions of_list = options;
+  if (problem.list == ListOf::kKinds) of_list.time_limit_s *= 1.0 - kBestsShare;
+  Answer answer = SearchTrees(searched, of_list);
   if (answer.status == Status::kInfeasible && PricesNeeded(problem)) {
     AllowUnpriced(searched);
     SearchOptions left = options;
-    left.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
+    left.time_limit_s = std::max(0.0, of_list.time_limit_s - seconds());
     answer = SearchTrees(searched, left);
   }
   answer.lower_bound_prices = searched.unpriced_allowed;

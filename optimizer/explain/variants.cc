@@ -28,10 +28,12 @@ class TimeLeft {
     options_.record = false;
     options_.progress = nullptr;
   }
-  SearchOptions Options() const {
+  // For one of so many searches that are still to come.
+  SearchOptions Options(int searches = 1) const {
     SearchOptions options = options_;
     options.time_limit_s =
-        std::max(0.0, left_s_ - std::chrono::duration<double>(Clock::now() - start_).count());
+        std::max(0.0, left_s_ - std::chrono::duration<double>(Clock::now() - start_).count()) /
+        searches;
     return options;
   }
 
@@ -114,12 +116,14 @@ BestDesign BestOf(Problem own, const SearchOptions& options, const Answer& answe
   return best;
 }
 
-BestDesign BestOfConfiguration(const Problem& problem, const TimeLeft& time,
+auto ListedOf(Configuration configuration, const Answer& answer) {
+  return std::find_if(answer.designs.begin(), answer.designs.end(),
+                      [&](const Design& design) { return design.configuration == configuration; });
+}
+
+BestDesign BestOfConfiguration(const Problem& problem, const SearchOptions& options,
                                Configuration configuration, const Answer& answer) {
-  const auto listed =
-      std::find_if(answer.designs.begin(), answer.designs.end(),
-                   [&](const Design& design) { return design.configuration == configuration; });
-  if (listed != answer.designs.end())
+  if (const auto listed = ListedOf(configuration, answer); listed != answer.designs.end())
     return {.configuration = configuration,
             .status = answer.status,
             .design = *listed,
@@ -127,7 +131,7 @@ BestDesign BestOfConfiguration(const Problem& problem, const TimeLeft& time,
             .lower_bound = std::min(answer.proof.lower_bound, listed->objective)};
   Problem own = problem;
   own.configurations = {configuration};
-  BestDesign best = BestOf(std::move(own), time.Options(), answer);
+  BestDesign best = BestOf(std::move(own), options, answer);
   best.configuration = configuration;
   return best;
 }
@@ -147,9 +151,17 @@ void AddVariants(const Problem& problem, const SearchOptions& options, double us
 
 void AddBests(const Problem& problem, const SearchOptions& options, double used_s, Answer& answer) {
   const TimeLeft time(options, used_s);
+  const bool products = options.select && !problem.orderable_only;
+  int searches = products;
   for (const Configuration configuration : problem.configurations)
-    answer.by_configuration.push_back(BestOfConfiguration(problem, time, configuration, answer));
-  if (!options.select || problem.orderable_only) return;
+    searches += ListedOf(configuration, answer) == answer.designs.end();
+  for (const Configuration configuration : problem.configurations) {
+    const bool listed = ListedOf(configuration, answer) != answer.designs.end();
+    answer.by_configuration.push_back(
+        BestOfConfiguration(problem, time.Options(std::max(1, searches)), configuration, answer));
+    searches -= !listed;
+  }
+  if (!products) return;
   Problem own = problem;
   own.orderable_only = true;
   own.parts = options.select(own);

@@ -170,6 +170,25 @@ TEST(Quantities, ThatCannotBeReadNameFieldValueAndRange) {
             "must be a number ≥ 1 and ≤ 1000, not the text \"2 x\"");
 }
 
+TEST(Quantities, SharesMayBeInPercent) {
+  Json request = Requirements();
+  request["actuators"][0]["phase"] = 0.0;
+  request["actuators"][0]["inflate_fraction"] = "25 %";
+  const DesignRequest read = Read(request);
+  EXPECT_EQ(read.problem.groups[0].gait.inflate_fraction, 0.25);
+  EXPECT_THAT(read.remarks.understood.dump(), HasSubstr("\"25 %\""));
+  const auto detail = [](const char* text) {
+    Json wrong = With(Requirements(), "/actuators/0/inflate_fraction", text);
+    return DetailOf(With(wrong, "/actuators/0/phase", 0.0), "/actuators/0/inflate_fraction");
+  };
+  EXPECT_EQ(detail("250 %"), "must be ≥ 0.01 and ≤ 0.99, not 2.5 (\"250 %\")");
+  EXPECT_EQ(detail("a quarter"), "must be a number ≥ 0.01 and ≤ 0.99, not the text \"a quarter\"");
+  // More than one of a thing is no share.
+  EXPECT_EQ(DetailOf(With(Requirements(), "/actuators/0/expansion_ratio", "150 %"),
+                     "/actuators/0/expansion_ratio"),
+            "must be a number ≥ 1 and ≤ 1000, not the text \"150 %\"");
+}
+
 TEST(Quantities, AreNotReadInsideSampleArrays) {
   Json measurement = ExampleMeasurement();
   measurement["runs"][0]["pressure_kpa_gauge"][3] = "86.2 kPa";

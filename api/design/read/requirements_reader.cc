@@ -228,8 +228,8 @@ void WarnOfTie(const Reader& request, const std::string& name, const SavedModel&
     for (const std::string& id : model.tied[i]) set += (set.empty() ? "" : " and ") + id;
     others += (others.empty() ? "" : ", or ") + set;
   }
-  recorder->Warn(request.Pointer("model"), name + " is the first of a tie: " + others +
-                                               " would explain its data as well");
+  recorder->Warn(request.Pointer("model"),
+                 name + " is the first of a tie: " + others + " would explain its data as well");
 }
 
 // Effects of the revision go to every group; those of its sensor change no actuator.

@@ -25,6 +25,15 @@ std::size_t Distance(std::string_view a, std::string_view b) {
   return best;
 }
 
+TEST(NearestName, HoldsTheNameAsAWordWhereNoneIsAMisspelling) {
+  const std::vector<std::string_view> known = {"note", "rest_volume_ml", "operating_pressure_kpa",
+                                               "pressure_kpa_max", "volumes"};
+  EXPECT_EQ(NearestName("volume", {known.begin(), known.end() - 1}), "rest_volume_ml");
+  EXPECT_EQ(NearestName("volume", known), "volumes");  // a misspelling goes first
+  EXPECT_EQ(NearestName("pressure", known), "pressure_kpa_max");
+  EXPECT_EQ(NearestName("lume", {"note", "volume_ml"}), "note");  // a part of a word is none
+}
+
 TEST(NearestName, IsThatOfTheSmallestDistance) {
   std::mt19937 random(7);
   const auto word = [&] {
