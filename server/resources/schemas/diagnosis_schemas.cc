@@ -119,6 +119,8 @@ Json DiagnosisSchema() {
        {"bottles", BottlesSchema()},
        {"candidates",
         ListOf({{"type", "object"}, {"properties", {{"reason", {{"type", {"string", "null"}}}}}}})},
+       {"tied_sets", ListOf(Object({{"effects", ListOf({{"type", "object"}})},
+                                    {"numbers", ListOf({{"type", "object"}})}}))},
        {"next_experiment", {{"type", {"object", "null"}}}},
        {"reason",
         {{"type", {"string", "null"}}, {"description", "why a tie has no next experiment"}}}});

@@ -303,7 +303,8 @@ TEST(Parts, NameEveryFieldThatIsWrong) {
       {"/id", "custom", "made-to-measure"},
       {"/channels", 1.5, "whole number"},
       {"/provenance/mass_kg/uncertainty", 0, "≥ 1e-6 and ≤ 1"},
-      {"/provenance/mass_kg/uncertainty", "5 %", "number"},
+      {"/provenance/mass_kg/uncertainty", "five", "number"},
+      {"/provenance/mass_kg/uncertainty", "500 %", "≥ 1e-6 and ≤ 1"},
       {"/series", 5, "text of at most 200"},
       {"/orderable", "yes", "true, false, or null"},
       {"/aliases", Parse(R"(["a", "a"])"), "listed twice"},
@@ -323,6 +324,8 @@ TEST(Parts, NameEveryFieldThatIsWrong) {
     EXPECT_THAT(errors[0].pointer, testing::StartsWith(pointer));  // or an item of a list there
     EXPECT_THAT(errors[0].detail, HasSubstr(detail));
   }
+  const auto read = ParsePart(With(valve, "/provenance/mass_kg/uncertainty", "5 %"));
+  EXPECT_EQ(std::get<catalog::Part>(read).numbers.at("mass_kg").uncertainty, 0.05);
   EXPECT_THAT(DetailAt(ErrorsOf(ParsePart(With(valve, "/family", "valves"))), "/family"),
               HasSubstr("valve"));
   EXPECT_EQ(ErrorsOf(ParsePart(Without(valve, "/family"))).front().pointer, "/family");

@@ -57,6 +57,18 @@ TEST(ListsTest, OfKindsUnlessAskedOtherwise) {
   ExpectRefused(kinds, tamperings);
 }
 
+// Overlapping strokes on a compressor take all the time that a list has; bottles are found at once.
+TEST(ListsTest, OneThatTakesAllItsTimeKeepsSomeForEachConfiguration) {
+  Json request = Example("walking_gait");
+  request["supply"]["configurations"] = {"compressor", "co2"};
+  request["ranking"] = {{"count", 5}, {"time_limit_s", 5}};
+  const Json answer = Answered(request);
+  for (const Json& best : answer["by_configuration"]) {
+    const bool found = !best["design"].is_null();
+    EXPECT_TRUE(found || !best["conflict"].empty()) << best["configuration"];
+  }
+}
+
 TEST(ListsTest, OfProductsAlone) {
   const Json few = With(Example("exosuit"), "/ranking/count", 2);
   const Json any = Answered(few);
