@@ -46,7 +46,7 @@ std::variant<double, std::string> ReadQuantity(const std::string& text, const st
   if (remarks == nullptr) return number;
   Json understood = {{"given", text}, {"value", number}, {"unit", unit}};
   if (!quantity.condition.empty()) understood["condition"] = quantity.condition;
-  remarks->Understood(pointer, std::move(understood));
+  remarks->Understood(pointer, understood);
   return number;
 }
 
@@ -198,7 +198,7 @@ bool Reader::Bool(std::string_view name, bool fallback) {
 std::string Reader::Text(std::string_view name, std::optional<std::string> fallback) {
   Note(name, !fallback, [] { return kTextForm; });
   const Json* value = fallback ? Raw(name) : Required(name);
-  if (value == nullptr) return fallback.value_or("");
+  if (value == nullptr) return std::move(fallback).value_or("");
   if (!value->is_string()) {
     Fail(name, "must be a text, not " + KindOf(*value));
     return "";
@@ -217,7 +217,7 @@ std::string Reader::Choice(std::string_view name, const std::vector<std::string>
   const Json* value = Raw(name);
   if (value == nullptr) {
     if (!fallback && object_ != nullptr) Fail(name, "is required, " + OneOf(allowed));
-    return fallback.value_or("");
+    return std::move(fallback).value_or("");
   }
   if (value->is_string()) {
     const std::string& text = value->get_ref<const std::string&>();

@@ -72,9 +72,8 @@ void ReadData(Reader& reader, SavedModel& model) {
 }
 
 void ReadTied(Reader& reader, SavedModel& model) {
-  reader.Describe("tied",
-                  {{"type", "array"},
-                   {"items", {{"type", "array"}, {"items", {{"type", "string"}}}}}});
+  reader.Describe(
+      "tied", {{"type", "array"}, {"items", {{"type", "array"}, {"items", {{"type", "string"}}}}}});
   if (!reader.Has("tied")) return;
   for (const Element& set : reader.List("tied", 0, kSetsMax)) {
     std::vector<std::string>& ids = model.tied.emplace_back();

@@ -7,8 +7,8 @@
 //     "tied": [ [ "creep" ], [ "leak" ] ],
 //     "noise_kpa", "before_rms_kpa", "after_rms_kpa", "holdout_rms_kpa" }
 // Factors are those of the fit on numbers declared for the rig that was measured: they serve
-// diagnoses of that rig, not the parts of other designs. `tied` stands in models of a tie alone: the
-// sets that did as well, of which the model has the first.
+// diagnoses of that rig, not the parts of other designs. `tied` stands in models of a tie alone:
+// the sets that did as well, of which the model has the first.
 #ifndef PLENUM_API_MEASURE_MODEL_DOCUMENT_H_
 #define PLENUM_API_MEASURE_MODEL_DOCUMENT_H_
 
@@ -28,9 +28,9 @@ struct SavedModel {
   std::vector<model::Effect> effects;
   std::vector<std::pair<calibration::Declared, double>> factors;
   std::vector<std::vector<std::string>> tied;  // sets of which the effects are the first
-  struct Covariance {                       // of the fit, in the units that the names carry
-    std::vector<std::string> parameters;    // "creep.fraction", "sonic_conductance"
-    std::vector<std::vector<double>> rows;  // square
+  struct Covariance {                          // of the fit, in the units that the names carry
+    std::vector<std::string> parameters;       // "creep.fraction", "sonic_conductance"
+    std::vector<std::vector<double>> rows;     // square
   } covariance;
   struct Data {
     std::string name, sha256;

@@ -8,7 +8,8 @@
 namespace plenum::api {
 
 // Effects and factors of `after` at their estimates, with their covariance, of a tie those of its
-// first set, and what is tied; where a term was learned, the term with the effects and factors fitted beside it, and the errors with it.
+// first set, and what is tied; where a term was learned, the term with the effects and factors
+// fitted beside it, and the errors with it.
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance);
 
 }  // namespace plenum::api

@@ -8,8 +8,8 @@
 // go by mass, cost and id. Rows with a price go before those without, which are none where cost
 // counts. Along a front the rows stay: they are least by what orders the front's designs. Where no
 // row passes enough it is of those that pass most. Where none stands the pressure there is no
-// joint, and nothing counts. Where products alone are asked for (Problem::orderable_only) a class of
-// products joins only what no product does: what joins is there in either case.
+// joint, and nothing counts. Where products alone are asked for (Problem::orderable_only) a class
+// of products joins only what no product does: what joins is there in either case.
 //
 // Enough, for lines, is kJointFactor times what all actuators ask who fill at once within their
 // rise times (JointConductance below). It would slow lines which are just fast enough by 2 or 3 %

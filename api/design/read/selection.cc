@@ -64,8 +64,9 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::
   return IsAllowed(problem, family, part.id) &&
          (!problem.orderable_only || part.orderable.value_or(true) ||
           family == Family::kManifold) &&  // joints.h
-         (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part) &&
-         HasItsPressure(problem, part) && SuitsVacuumRail(problem, part);
+         (!optimizer::Evacuated(problem) || StandsVacuum(part)) &&
+         SuitsFeed(problem, part) && HasItsPressure(problem, part) &&
+         SuitsVacuumRail(problem, part);
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,

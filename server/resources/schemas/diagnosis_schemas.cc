@@ -21,7 +21,7 @@ Json NumbersSchema() {
                         {"instead_of", ListOf(text)}});
   schema["properties"]["specimen"] = {{"type", {"string", "null"}}};  // where one has it for itself
   schema["properties"]["chamber"] = {{"type", "string"}};             // the same of several
-  return ListOf(std::move(schema));
+  return ListOf(schema);
 }
 
 // Pieces of the actuator, where runs name them.

@@ -64,7 +64,7 @@ TEST(ModelRevision, OfATieSaysSoAndWarnsWhatIsRankedWithIt) {
 }
 
 TEST(ModelRevision, RefusesWhatMakesNoSense) {
-  const auto detail = [](const char* pointer, Json value, const char* at) {
+  const auto detail = [](const char* pointer, const Json& value, const char* at) {
     return DetailAt(ErrorsOf(ParseModel(With(Parse(kDocument), pointer, value))), at);
   };
   EXPECT_THAT(detail("/schema", "model/2", "/schema"), HasSubstr("model/1"));
