@@ -440,7 +440,10 @@ test('a tie names the experiment that would tell, and its run decides', async ()
   await page.getByRole('heading', { name: 'The experiment that would tell' }).waitFor();
   assert.equal(await verdict(page).innerText(), 'a tie');
   await page.getByText('tied').first().waitFor();
-  assert.equal(await page.getByRole('button', { name: 'Save the revision' }).count(), 0);
+  // It can be kept: the first set, which says that others do as well.
+  await page.getByRole('button', { name: 'Save the revision' }).waitFor();
+  await page.getByText('Other sets do as well: the run proposed above would decide.').waitFor();
+  assert.equal(await page.getByText(/^As good as any: /).count(), 2);
 
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save as a run to fill in' }).click();

@@ -1,7 +1,5 @@
 #include "server/resources/schemas/diagnosis_schemas.h"
 
-#include <utility>
-
 #include "api/measure/stated_document.h"
 #include "server/resources/schemas/schema_forms.h"
 

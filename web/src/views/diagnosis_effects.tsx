@@ -130,7 +130,8 @@ function Specimens({ d, specimens }: { d: Diagnosis; specimens: Specimen[] }) {
 const sentence = (words: string): string =>
   `${words.charAt(0).toUpperCase()}${pressuresInUnit(words.slice(1))}.`;
 
-function OneEffect({ effect }: { effect: FittedEffect }) {
+// `of`: the set of a tie that it stands in.
+function OneEffect({ effect, of }: { effect: FittedEffect; of?: string }) {
   return (
     <>
       <h3>
@@ -138,7 +139,11 @@ function OneEffect({ effect }: { effect: FittedEffect }) {
         {effect.chamber && ` of ${effect.chamber}`}
       </h3>
       {effect.words && <p>{sentence(effect.words)}</p>}
-      <EstimateTable name={effect.id} of="parameter" rows={Object.entries(effect.parameters)} />
+      <EstimateTable
+        name={of ? `${effect.id} in ${of}` : effect.id}
+        of="parameter"
+        rows={Object.entries(effect.parameters)}
+      />
     </>
   );
 }
@@ -167,7 +172,11 @@ export function Effects({ d }: { d: Diagnosis }) {
           <summary>As good as any: {effectNames(d.tied[i]!, d.tied_laws[i])}</summary>
           {numbers.map((n) => n.words && <p key={n.words}>{sentence(n.words)}</p>)}
           {effects.map((effect) => (
-            <OneEffect key={effect.id + (effect.chamber ?? '')} effect={effect} />
+            <OneEffect
+              key={effect.id + (effect.chamber ?? '')}
+              effect={effect}
+              of={`set ${i + 1}`}
+            />
           ))}
         </details>
       ))}
