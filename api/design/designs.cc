@@ -139,8 +139,7 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
         excluded.push_back(part.id);
       else if (required != problem.require.end() && !required->second.contains(part.id))
         ++counts["require"][part.family];
-      else if (problem.orderable_only && !part.orderable.value_or(true) &&
-               spec.family != optimizer::Family::kManifold)
+      else if (!SuitsOrder(problem, part))
         ++counts["orderable"][part.family];
       else if (optimizer::Evacuated(problem) && !StandsVacuum(part))
         ++counts["vacuum"][part.family];

@@ -129,8 +129,7 @@ const Json* Reader::Required(std::string_view name) {
 double Reader::ReadNumber(const Json& value, const std::string& pointer, Range range,
                           std::string_view name) {
   const bool in_percent = value.is_string() && value.get_ref<const std::string&>().ends_with('%');
-  if (value.is_string() && TakesText(name, range) &&
-      (in_percent || !catalog::UnitOf(name).empty())) {
+  if (value.is_string() && (in_percent ? TakesText(name, range) : !catalog::UnitOf(name).empty())) {
     const auto read = ReadQuantity(value.get_ref<const std::string&>(), pointer, range, name);
     if (const double* number = std::get_if<double>(&read)) return *number;
     Report(pointer, std::get<std::string>(read));

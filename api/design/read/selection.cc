@@ -52,6 +52,10 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const std::stri
          (required == problem.require.end() || required->second.contains(id));
 }
 
+bool SuitsOrder(const optimizer::Problem& problem, const catalog::Part& part) {
+  return !problem.orderable_only || part.orderable.value_or(true) || part.family == "manifold";
+}
+
 bool HasItsPressure(const optimizer::Problem& problem, const catalog::Part& part) {
   constexpr double kRounding = 1.0 + 1e-9;
   const auto needed = part.numbers.find("supply_pressure_kpa_gauge");
@@ -61,12 +65,9 @@ bool HasItsPressure(const optimizer::Problem& problem, const catalog::Part& part
 }
 
 bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::Part& part) {
-  return IsAllowed(problem, family, part.id) &&
-         (!problem.orderable_only || part.orderable.value_or(true) ||
-          family == Family::kManifold) &&  // joints.h
-         (!optimizer::Evacuated(problem) || StandsVacuum(part)) &&
-         SuitsFeed(problem, part) && HasItsPressure(problem, part) &&
-         SuitsVacuumRail(problem, part);
+  return IsAllowed(problem, family, part.id) && SuitsOrder(problem, part) &&
+         (!optimizer::Evacuated(problem) || StandsVacuum(part)) && SuitsFeed(problem, part) &&
+         HasItsPressure(problem, part) && SuitsVacuumRail(problem, part);
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,

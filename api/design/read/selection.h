@@ -14,6 +14,9 @@ namespace plenum::api {
 
 inline constexpr const char* kCustomReservoir = "custom";
 
+// Whether it is a product where products alone are asked for, or a class of products that may join
+// what none does (optimizer/problem/joints.h).
+bool SuitsOrder(const optimizer::Problem& problem, const catalog::Part& part);
 // Whether the wall has the pressure at which an ejector's numbers hold; true of other parts.
 bool HasItsPressure(const optimizer::Problem& problem, const catalog::Part& part);
 // Whether `require` and `exclude` leave the part; of a row of the catalogue also `supply.parts`.
